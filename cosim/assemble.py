@@ -1,13 +1,14 @@
-"""Scenario to system: the only file that names concrete units."""
+"""Scenario to system: each kind of component to what builds its unit."""
 
 from __future__ import annotations
 
 import functools
 import hashlib
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -159,27 +160,41 @@ def _parameters(name: str, component: Component, source: Path) -> Resolved:
 
 def _build(name: str, component: Component, parameters: Resolved, scenario: Scenario, source: Path) -> Unit:
     try:
-        if isinstance(component, ProgrammeComponent):
-            return ProgrammeUnit(name, {o: _course(given) for o, given in component.outputs.items()})
-        if isinstance(component, CircuitComponent):
-            return CircuitUnit(name, _network(component))
-        if isinstance(component, HangingMassComponent):
-            return HangingMassUnit(name, component.coils, component.mass.to("kg"))
-        if isinstance(component, FabricComponent):
-            return build_fabric(name, component, parameters)
-        if isinstance(component, PendulumComponent):
-            return build_pendulum(name, component, parameters)
-        if isinstance(component, SensorComponent | ControllerComponent):
-            from cosim.control_assembly import build_control  # late: few scenarios have one
-
-            return build_control(name, component, source)
-        return _fmu(name, component, parameters, scenario, source)
+        return _BUILDERS[type(component)](name, component, parameters, scenario, source)
     except InputError as error:
         raise error.within(name, source) from error
     except UnitError as error:  # libngspice is missing
         raise InputError(source, f"components.{name}", error.what, error.remedy or "correct this component") from error
     except ValueError as error:
         raise InputError(source, f"components.{name}", str(error), "correct this component") from error
+
+
+def _programme(name: str, component: ProgrammeComponent, *_: Any) -> Unit:
+    return ProgrammeUnit(name, {o: _course(given) for o, given in component.outputs.items()})
+
+
+def _circuit(name: str, component: CircuitComponent, *_: Any) -> Unit:
+    return CircuitUnit(name, _network(component))
+
+
+def _hanging_mass(name: str, component: HangingMassComponent, *_: Any) -> Unit:
+    return HangingMassUnit(name, component.coils, component.mass.to("kg"))
+
+
+def _fabric(name: str, component: FabricComponent, parameters: Resolved, *_: Any) -> Unit:
+    return build_fabric(name, component, parameters)
+
+
+def _pendulum(name: str, component: PendulumComponent, parameters: Resolved, *_: Any) -> Unit:
+    return build_pendulum(name, component, parameters)
+
+
+def _control(
+    name: str, component: SensorComponent | ControllerComponent, _: Resolved, __: Scenario, source: Path
+) -> Unit:
+    from cosim.control_assembly import build_control  # late: few scenarios have one
+
+    return build_control(name, component, source)
 
 
 def _fmu(name: str, component: FmuComponent, parameters: Resolved, scenario: Scenario, source: Path) -> Unit:
@@ -192,6 +207,20 @@ def _fmu(name: str, component: FmuComponent, parameters: Resolved, scenario: Sce
             unit.terminate()
             raise
     return unit
+
+
+#: Kind of component to what builds its unit.
+_BUILDERS: Mapping[type[Any], Callable[..., Unit]] = {
+    ProgrammeComponent: _programme,
+    CircuitComponent: _circuit,
+    HangingMassComponent: _hanging_mass,
+    FabricComponent: _fabric,
+    PendulumComponent: _pendulum,
+    SensorComponent: _control,
+    ControllerComponent: _control,
+    FmuComponent: _fmu,
+    ActuatorComponent: _fmu,
+}
 
 
 def _course(given: ProgrammeOutput) -> Course:

@@ -164,6 +164,18 @@ def places_in_lists(model: type[BaseModel], place: Sequence[int | str]) -> list[
     return told
 
 
+def tags_of_members(model: type[BaseModel], place: Sequence[int | str]) -> list[bool]:
+    """Which of the steps that lead to a fault are the tag of a member of a union, which is no key of the file."""
+    found: list[Any] = [model]
+    told: list[bool] = []
+    for step in place:
+        models = [m for annotation in found for m in _members(annotation) if _is_model(m)]
+        is_key = len(models) == 1 and step in models[0].model_fields  # of a tag one member is left, and keys follow
+        told.append(not is_key and any(_has_tag(m, step) for m in models))
+        found = [inner for annotation in found for inner in _inside(annotation, step)]
+    return told
+
+
 def _members(annotation: Any) -> list[Any]:
     """The annotation without `Annotated`; of a union every member."""
     if get_origin(annotation) is typing.Annotated:
@@ -184,6 +196,9 @@ def _is_model(annotation: Any) -> bool:
 def _inside(annotation: Any, step: int | str) -> list[Any]:
     """What stands under a key, or at a place of a list; a step that is the tag of a union leads to that member."""
     members = _members(annotation)
+    models = [m for m in members if _is_model(m)]
+    if len(models) > 1 and (tagged := [m for m in models if _has_tag(m, step)]):
+        return tagged  # also where a member has a key of that name: `fmu` is a kind and a key of it
     found: list[Any] = []
     for member in members:
         if _is_model(member):

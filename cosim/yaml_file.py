@@ -10,33 +10,11 @@ from typing import Any, TypeVar
 import pydantic
 import yaml
 
-from cosim.faults import is_weak, places_in_lists, shown, words
+from cosim.faults import is_weak, places_in_lists, shown, tags_of_members, words
 from cosim.unit.errors import InputError
 
 #: What pydantic puts into the place of a fault for a member of a union; it is no key of the file.
 _MEMBER = re.compile(r"^(bool|constrained-str|function-plain\[.*|union\[.*|list\[.*|float|int|str|\[key\])$")
-_KINDS = (
-    "programme",
-    "ngspice",
-    "fmu",
-    "actuator",
-    "bullet_fabric",
-    "hanging_mass",
-    "bullet_pendulum",
-    "sensor",
-    "controller",
-    "gauss_seidel",
-    "jacobi",
-    "iterated",
-    "step_doubling",
-    "contact",
-    "lead",
-    "drop",
-    "source_resistance",
-    "current_limit",
-    "ScaledConnection",
-)
-
 
 Model = TypeVar("Model", bound=pydantic.BaseModel)
 #: Levels that a file may have; and marks of a level in the text up to which nothing can be nested too deeply.
@@ -167,13 +145,12 @@ def input_error(
 
 def _key(place: Sequence[int | str], model: type[pydantic.BaseModel] | None) -> str:
     """Keys of the file that lead to a fault, for example `components.fabric.rows`, `connections[2].factor`."""
-    # The third part below a component or a connection, and the second below the algorithm, is its kind, which pydantic
-    # inserts; no key of the file stands there.
-    inserted = {"components": 2, "algorithm": 1, "connections": 2}.get(str(place[0])) if place else None
+    # pydantic inserts the kind of a component, an element, a law, an algorithm; no key of the file stands there.
+    is_tag = tags_of_members(model, place) if model is not None else [False] * len(place)
     is_place = places_in_lists(model, place) if model is not None else [isinstance(p, int) for p in place]
     text = ""
     for i, part in enumerate(place):
-        if (i == inserted and part in _KINDS) or (isinstance(part, str) and _MEMBER.match(part)):
+        if is_tag[i] or (isinstance(part, str) and _MEMBER.match(part)):
             continue
         if isinstance(part, int) and is_place[i]:
             text += f"[{part + 1}]"  # what a user reads counts from 1

@@ -11,6 +11,7 @@ import pydantic
 import yaml
 
 from cosim.components import Component as ScenarioComponent
+from cosim.components import FmuComponent
 from cosim.ssp.files import copy_once
 from cosim.ssp.fmus import Fmu, Variable
 from cosim.ssp.graph import Node
@@ -26,15 +27,6 @@ from cosim.yaml_file import parse_yaml, read_text
 #: Keys of a scenario's FMU component that SSP has no place for; our annotation holds them.
 OWN_KEYS = ("tolerance", "isolation", "structure", "record", "added_terms")
 _EXACT = 2**53
-_WITHOUT_FMU = (
-    "programme",
-    "ngspice",
-    "bullet_fabric",
-    "hanging_mass",
-    "bullet_pendulum",
-    "sensor",
-    "controller",
-)
 
 
 def own_component(component: Component, out: Path) -> dict[str, Any]:
@@ -49,12 +41,12 @@ def own_component(component: Component, out: Path) -> dict[str, Any]:
     except InputError as error:  # it names the file where the package is unpacked for the moment
         raise component.place.error(f"{component.source.name}: {error.key}: {error.problem}", error.remedy) from error
     try:
-        pydantic.TypeAdapter(ScenarioComponent).validate_python(data)
+        given = pydantic.TypeAdapter(ScenarioComponent).validate_python(data)
     except pydantic.ValidationError as error:
         raise component.place.error(
             f"`{component.name}` is no component: {error.errors()[0]['msg']}", "export it again"
         ) from error
-    if data["kind"] not in _WITHOUT_FMU:
+    if isinstance(given, FmuComponent):
         raise component.place.error(f"`{component.name}` is of kind {data['kind']}", "an FMU is a component of its own")
     if data.get("law", {}).get("kind") == "python":
         raise component.place.error(f"the law of `{component.name}` is a Python file", "a package carries no program")

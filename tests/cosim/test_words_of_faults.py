@@ -8,7 +8,8 @@ import yaml
 from pydantic import BaseModel, ConfigDict, Field, StrictBool, StrictFloat, StrictInt, ValidationError
 
 from cosim.assemble import assemble
-from cosim.faults import _WORDS, is_weak, known_keys, shown, words
+from cosim.components import CircuitElement, Component, HoldLaw, OnOffLaw, PiLaw, PythonLaw
+from cosim.faults import _WORDS, is_weak, known_keys, shown, tags_of_members, words
 from cosim.nearest import did_you_mean, nearest
 from cosim.scenario import Scenario, load_scenario, parse_scenario, shipped_scenarios
 from cosim.unit.errors import InputError
@@ -207,3 +208,61 @@ def test_the_name_of_a_scenario_is_guessed():
 def test_a_slip_in_a_unit_is_told_with_what_to_write(text, unit, words):
     with pytest.raises(ValueError, match=r"^" + re.escape(words) + "$"):
         PhysicalValue.parse(text).to(unit)
+
+
+def _tagged(annotation):
+    """Every member of a union that `kind` tells apart, below an annotation, with the keys that lead to it."""
+    for member in getattr(annotation, "__args__", (annotation,)):
+        if isinstance(member, type) and issubclass(member, BaseModel):
+            yield member
+
+
+COMPONENTS = list(_tagged(Component.__origin__))
+ELEMENTS = list(_tagged(CircuitElement.__origin__))
+LAWS = [OnOffLaw, PiLaw, HoldLaw, PythonLaw]
+
+
+def _kind(model):
+    return model.model_fields["kind"].annotation.__args__[0]
+
+
+@pytest.mark.parametrize("model", COMPONENTS, ids=_kind)
+def test_a_wrong_key_of_every_component_is_named_as_the_file_has_it(model):
+    given = {"kind": _kind(model), "colour": "red"}
+    with pytest.raises(InputError) as error:
+        parse_scenario(changed(("components", "own"), given), Path("scenario.yaml"))
+    assert "components.own.colour" in str(error.value)
+    assert f"own.{_kind(model)}." not in str(error.value)
+
+
+@pytest.mark.parametrize("model", ELEMENTS, ids=_kind)
+def test_a_wrong_key_of_every_element_is_named_as_the_file_has_it(model):
+    given = [{"kind": _kind(model), "colour": "red"}]
+    with pytest.raises(InputError) as error:
+        parse_scenario(changed(("components", "circuit", "elements"), given), Path("scenario.yaml"))
+    assert "components.circuit.elements[1].colour" in str(error.value)
+
+
+@pytest.mark.parametrize("model", LAWS, ids=_kind)
+def test_a_wrong_key_of_every_law_is_named_as_the_file_has_it(model):
+    given = {"kind": "controller", "law": {"kind": _kind(model), "colour": "red"}}
+    with pytest.raises(InputError) as error:
+        parse_scenario(changed(("components", "own"), given), Path("scenario.yaml"))
+    assert "components.own.law.colour" in str(error.value)
+
+
+def test_a_key_or_a_component_that_is_called_like_a_kind_stays_in_its_place():
+    assert tags_of_members(Scenario, ("components", "fmu", "fmu", "fmu")) == [False, False, True, False]
+    place = ("components", "programme", "programme", "outputs")
+    assert tags_of_members(Scenario, place) == [False, False, True, False]
+    with pytest.raises(InputError) as error:
+        parse_scenario(changed(("components", "lead"), {"kind": "fmu", "fmu": 5}), Path("scenario.yaml"))
+    assert error.value.key == "components.lead.fmu"
+
+
+def test_what_was_meant_is_said_of_a_kind_that_has_a_key_of_its_name():
+    with pytest.raises(InputError) as error:
+        parse_scenario(
+            changed(("components", "own"), {"kind": "fmu", "fmu": "a.fmu", "integratr": "cvode"}), Path("s.yaml")
+        )
+    assert "did you mean `integrator`?" in str(error.value)
