@@ -108,7 +108,7 @@ class HangingMassUnit(Unit):
         if bad.size:
             raise UnitError(
                 self.name,
-                f"stiffness of coil {bad[0]} is {stiffness[bad[0]]} N/m, so its mass has no equilibrium",
+                f"stiffness of coil {bad[0] + 1} is {stiffness[bad[0]]} N/m, so its mass has no equilibrium",
                 time,
                 "the stiffness must be positive; check the actuator connected to it",
             )

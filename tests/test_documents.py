@@ -5,10 +5,11 @@ import re
 from pathlib import Path
 
 import pytest
+import typer
 
 from benchmarks.models.build import build
 from cosim.assemble import assemble
-from cosim.cli import validate
+from cosim.cli import app, validate
 from cosim.run import run
 from cosim.scenario import parse_scenario
 
@@ -141,3 +142,26 @@ connections: [a.y -> b.u, b.y -> a.u]
     assert printed[1].startswith("  algebraic loop ")
     assert "a.y -> b.u" in printed[1]
     assert "b.y -> a.u" in printed[1]
+
+
+def _options(command, path):
+    """Every option of a command and of those below it."""
+    for name, inner in getattr(command, "commands", {}).items():
+        yield from _options(inner, [*path, name])
+    for parameter in command.params:
+        yield from ((" ".join(path), o) for o in (*parameter.opts, *parameter.secondary_opts) if o.startswith("--"))
+
+
+def test_every_option_stands_in_a_document():
+    pages = [ROOT / "README.md", *(ROOT / "docs").rglob("*.md")]
+    text = "\n".join(p.read_text(encoding="utf-8") for p in pages)
+    every = set(_options(typer.main.get_command(app), ["cosim"]))
+    usual = {"--help", "--version", "--install-completion", "--show-completion"}
+    assert len(every) > 100
+    assert [(c, o) for c, o in sorted(every) if o not in usual and not re.search(rf"{o}(?![\w-])", text)] == []
+
+
+def test_every_page_stands_in_the_index_and_in_the_site():
+    site, index = ((ROOT / f).read_text(encoding="utf-8") for f in ("mkdocs.yml", "docs/README.md"))
+    pages = [p.name for p in (ROOT / "docs").glob("*.md") if p.name != "README.md"]
+    assert [p for p in pages if f": {p}" not in site or f"({p}" not in index] == []

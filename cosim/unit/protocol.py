@@ -211,7 +211,7 @@ class ArrayStore:
         array = self.arrays[name]
         array[...] = value
         if not is_finite(array):
-            where = [int(i) for i in np.argwhere(~np.isfinite(array))[0]] if array.ndim else []
+            where = [int(i) + 1 for i in np.argwhere(~np.isfinite(array))[0]] if array.ndim else []
             raise UnitError(self.unit, f"input {name}{where or ''} is not a finite number")
 
     def get(self, name: str) -> Array:

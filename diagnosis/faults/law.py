@@ -231,10 +231,15 @@ def added(unit: str, largest: float) -> TermParameter:
     )
 
 
-def is_zero(values: Array, axis: int = 0) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
-    """Where an input is stated as zero, same shape; all false where it is never anything else."""
-    size = np.abs(values)
-    return np.asarray(size < ACCURACY * size.max(axis=axis, keepdims=True))
+def is_zero(values: Array, size: Array | None = None) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+    """Where an input is stated as zero, same shape; all false where it is never anything else.
+
+    Args:
+        values: Over time along the first axis.
+        size: Largest value without its sign, where `values` are a part of the course.
+    """
+    largest = np.abs(values).max(axis=0, keepdims=True) if size is None else size
+    return np.asarray(np.abs(values) < ACCURACY * largest)
 
 
 def zero_stretches(edges: Array, zero: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> list[tuple[float, float]]:

@@ -70,12 +70,13 @@ class InputChange:
         inside = np.minimum(low + step, self.end) - np.maximum(low, self.begin)
         return np.asarray(np.clip(inside / step, 0.0, 1.0))
 
-    def change(self, stated: Array, shares: Array) -> Array:
+    def change(self, stated: Array, shares: Array, size: Array | None = None) -> Array:
         """What acts beside what is stated, shape (steps,) or (steps, elements).
 
         Args:
             stated: In the unit of the output.
             shares: See `shares`.
+            size: Largest stated value without its sign, shape () or (elements,); None: of `stated`, which is all.
         """
         inside = np.flatnonzero(shares)
         shares = shares.reshape(-1, *[1] * (stated.ndim - 1))
@@ -86,7 +87,7 @@ class InputChange:
             return np.asarray(stated * self.amount * shares)
         if self.is_everywhere:
             return np.asarray(self.amount * shares * np.ones_like(stated))
-        return np.asarray(np.where(is_zero(stated), self.amount * shares, 0.0))
+        return np.asarray(np.where(is_zero(stated, size), self.amount * shares, 0.0))
 
 
 def input_change(term: Term, values: Sequence[float], given: ProgrammeOutput) -> InputChange:

@@ -9,7 +9,18 @@ import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
 from diagnosis.faults.intervals import Best, Pieces, best_constant, best_interval, best_ramp, best_single, cuts_of
-from diagnosis.faults.law import DRIFT, FEWEST, FEWEST_EQUAL, FEWEST_OF_DRIFT, OF_TIME, OFFSET, STUCK, is_one_of
+from diagnosis.faults.law import (
+    DRIFT,
+    FEWEST,
+    FEWEST_EQUAL,
+    FEWEST_OF_DRIFT,
+    OF_TIME,
+    OFFSET,
+    RISE,
+    SCALED,
+    STUCK,
+    is_one_of,
+)
 from diagnosis.faults.readings import ACTS, Readings
 from diagnosis.models.protocol import Scaled
 from diagnosis.search.fit import Fit
@@ -97,6 +108,10 @@ def _unit(base: Fit, readings: Readings, term: Term) -> Array:
     """What a fault of strength 1 adds to the plain residuals where it acts, shape (samples,)."""
     if term.identifier == OFFSET.identifier:
         return np.full(len(readings.measured), -1.0 / readings.deviation)
+    if not is_one_of(term.identifier, (SCALED, RISE)):
+        raise NotImplementedError(
+            f"what a {term.identifier} of strength 1 adds to a reading stands nowhere: say it here"
+        )
     return -readings.rise(readings.plain(base.residuals[readings.own]))
 
 

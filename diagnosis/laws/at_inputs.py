@@ -33,6 +33,8 @@ OVER = {
 _BEHIND = OwnState("behind", "(x - behind) / step", "x", "x")
 _SPEED = "((x - behind) / step)"
 _STEP = ("u/rate", 1.0)
+#: Laws of a state that are another law at an input: what is added to it all the time.
+_ELSE = {"constant_force": "input_offset"}
 
 
 def at_inputs(laws: Iterable[Law]) -> Iterator[Law]:
@@ -66,7 +68,7 @@ def _at_input(law: Law, role: Role) -> Law | None:
         law.source,
         constants,
         (_BEHIND,) if is_slope else (),
-        confused_with={f"{other}_at_port": what for other, what in law.confused_with.items()},
+        confused_with={_ELSE.get(other, f"{other}_at_port"): what for other, what in law.confused_with.items()},
         series_of=law.series_of,
     )
 

@@ -12,7 +12,7 @@ from diagnosis.laws.at_inputs import at_inputs
 from diagnosis.laws.completing import completing
 from diagnosis.laws.law import Law, Number, OwnState, Role
 
-#: Folders of laws with a file each.
+#: Folders of laws with a file each, in the order in which they are tried; others that are there come after them.
 FOLDERS = ("motion", "heat", "fluid", "electrical", "signal")
 _FORM = "form of the formula: a power series of what is missing"
 #: Form to its formula over one quantity o, the product of symbols that divides its strength, and its name.
@@ -24,6 +24,12 @@ _FORMS = {
 }
 
 
+def folders() -> list[str]:
+    """Folders of laws with a file each: every package in `diagnosis/laws/` but that of patterns."""
+    there = [m.name for m in pkgutil.iter_modules(package.__path__) if m.ispkg and m.name != "generic"]
+    return sorted(there, key=lambda name: (FOLDERS.index(name) if name in FOLDERS else len(FOLDERS), name))
+
+
 @functools.cache
 def library() -> tuple[Law, ...]:
     """Every law: those with a name, those without, and the basis that completes a description.
@@ -32,7 +38,7 @@ def library() -> tuple[Law, ...]:
     'spring that hardens or softens (Duffing)'
     """
     named = []
-    for folder in FOLDERS:
+    for folder in folders():
         where = importlib.import_module(f"{package.__name__}.{folder}")
         for module in sorted(m.name for m in pkgutil.iter_modules(where.__path__)):
             named.append(importlib.import_module(f"{where.__name__}.{module}").LAW)

@@ -156,7 +156,7 @@ def test_a_variable_needs_one_name_per_dimension():
 
 def test_an_input_that_is_not_finite_is_refused_where_it_arrives():
     unit = Relaxation("x", 1.0, 1.0, 0.0, shape=(3,))
-    with pytest.raises(UnitError, match=r"x: input input\[2\] is not a finite number"):
+    with pytest.raises(UnitError, match=r"x: input input\[3\] is not a finite number"):
         unit.set("input", np.array([0.0, 1.0, np.inf]))
     assert isinstance(unit, Unit)
 

@@ -212,7 +212,8 @@ def test_a_scenario_with_its_numbers_runs_or_there_is_none(
     own = folder[1] / "scenario.yaml"
     scenario = load_scenario(str(own if own.exists() else SMALL if model.has_scatter else RIG / "scenario.yaml"))
     path = model.amend(scenario, nominal(model), tmp_path / "amended")
-    assert (path is None) == (model.coil_network is not None)
+    is_usual = inspect.getattr_static(type(model), "amend") is inspect.getattr_static(ModelBase, "amend")
+    assert (path is None) == (model.coil_network is not None or is_usual)
     if path is not None:
         assert set(load_scenario(path).components) == set(scenario.components)
 

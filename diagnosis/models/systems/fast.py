@@ -437,9 +437,11 @@ class FastSystem:
         for fault in changes.faults.get(key[0], {}).get(key[1], ()):
             first, last = np.searchsorted(self._begins, (fault.begin - self.size / 1e9, fault.end))
             part = slice(max(int(first) - 1, 0), int(last) + 1)  # one step more on either side, whose share is nothing
+            if part.start >= len(self._begins):
+                continue  # after the last step
             values = values.copy() if values is stated else values
             shares = fault.shares(self._begins[part], self.size / 1e9)
-            values[:, part] += fault.change(stated[:, part].T, shares).T
+            values[:, part] += fault.change(stated[:, part].T, shares, np.abs(stated).max(axis=1)).T
         return np.ascontiguousarray(values)
 
     def _set_laws(self, laws: Mapping[int, Sequence[float]]) -> None:

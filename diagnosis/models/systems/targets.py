@@ -30,6 +30,13 @@ AT_PORTS = (
     Role.RESPONSE,
     Role.RESPONSE_TO_ANOTHER,
 )
+#: Roles of a state that is known by its unit alone: symbol in formulas, and units. A law of another domain, as of a
+#: concentration, adds its role here.
+OF_A_STATE: Mapping[Role, tuple[str, tuple[str, ...]]] = {
+    Role.LEVEL: ("h", _LENGTHS),
+    Role.CURRENT: ("i", ("A",)),
+    Role.VOLTAGE: ("q", ("V",)),
+}
 #: `added_terms` target, its quantity, and symbol to quantity.
 Target = tuple[str, Quantity, dict[str, Quantity]]
 
@@ -204,8 +211,7 @@ def _single(
             if is_of(q, "K"):
                 yield from ((f"der({name})", q, {"T": q, **room}) for room in _rooms(own))
     else:
-        units = {Role.LEVEL: _LENGTHS, Role.CURRENT: ("A",), Role.VOLTAGE: ("V",)}[role]
-        symbol = {Role.LEVEL: "h", Role.CURRENT: "i", Role.VOLTAGE: "q"}[role]
+        symbol, units = OF_A_STATE[role]
         for name, q in alone.items():
             if is_of(q, *units):
                 yield f"der({name})", q, {symbol: q}
