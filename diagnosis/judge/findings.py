@@ -18,6 +18,7 @@ from diagnosis.judge.plausibility import implausible
 from diagnosis.judge.plausibility import unidentified as unmeasured
 from diagnosis.judge.reservations import (
     BESIDE,
+    INSIDE,
     ONE_COURSE,
     PARTS,
     cancelled,
@@ -79,7 +80,7 @@ def findings(
                 _widened(model, outcome, accepted, t, f, list(zip(ordered, found))) for t, f in zip(ordered, found)
             ]
             found = [one_course(f, found) for f in found]
-            found = [in_parts(f, found) for f in found]
+            found = [in_parts(f, found, model.hidden) for f in found]
     return tuple(found)
 
 
@@ -107,21 +108,28 @@ def one_course(finding: Finding, every: Sequence[Finding]) -> Finding:
     return replace(finding, statement=told, doubts=(*finding.doubts, ONE_COURSE))
 
 
-def in_parts(finding: Finding, every: Sequence[Finding]) -> Finding:
-    """The finding of a law without a name, where others are in the same FMU at other places.
+def in_parts(finding: Finding, every: Sequence[Finding], hidden: Sequence[str]) -> Finding:
+    """The finding of a law without a name, where its place is not known: that is said.
 
-    The readings confirm the sum of such laws. Of an FMU that hides its states laws are tried where it can be reached,
-    and one inside may take several of them.
+    Where others are in the same FMU at other places the readings confirm the sum of such laws. Of an FMU that hides its
+    states laws are tried where it can be reached, and one inside may look like one of them, or take several.
+
+    Args:
+        finding: Any.
+        every: All that are accepted.
+        hidden: Components that hide their states.
     """
 
     def is_part(one: Finding) -> bool:
         is_in_an_fmu = "." in one.place and one.unit not in MEASURED
         return is_in_an_fmu and one.standing is Standing.UNNAMED and not is_one_of(one.effect, OF_INPUTS)
 
-    others = {f.place for f in every if is_part(f) and f.place.split(".")[0] == finding.place.split(".")[0]}
-    if not is_part(finding) or others <= {finding.place}:
+    own = finding.place.split(".")[0]
+    others = {f.place for f in every if is_part(f) and f.place.split(".")[0] == own}
+    if not is_part(finding):
         return finding
-    return replace(finding, doubts=(*finding.doubts, PARTS))
+    doubts = (*([PARTS] if not others <= {finding.place} else []), *([INSIDE] if own in hidden else []))
+    return replace(finding, doubts=(*finding.doubts, *doubts))
 
 
 def _is_beside_unnamed(finding: Finding, every: Sequence[Finding]) -> bool:

@@ -19,6 +19,9 @@ BESIDE = "a law without a name acts at the same place: both may be parts of one 
 #: What is not known of a law without a name beside another one elsewhere in the same FMU.
 PARTS = "other laws without a name act elsewhere in the same FMU: together they may describe one law, at another place"
 
+#: What is not known of a law without a name at an FMU that hides its states.
+INSIDE = "the FMU hides its states: a law inside it, at another place, may show like this at its inputs and outputs"
+
 #: What is not known of an input of which two faults at the same time are found.
 ONE_COURSE = (
     "another finding is of the same input at the same time: both together describe a course of its own that it had, "

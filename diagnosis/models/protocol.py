@@ -322,6 +322,11 @@ class DiagnosisModel(Protocol):
         ...
 
     @property
+    def hidden(self) -> tuple[str, ...]:
+        """Components that hide their states: laws inside them are described at their inputs and outputs alone."""
+        ...
+
+    @property
     def answers(self) -> Answers | None:
         """What its search simulated, with channels that nobody recorded; None where a simulation costs nothing."""
         ...
@@ -505,6 +510,11 @@ class ModelBase:
     @property
     def untried(self) -> tuple[str, ...]:
         """Nothing."""
+        return ()
+
+    @property
+    def hidden(self) -> tuple[str, ...]:
+        """None."""
         return ()
 
     @property

@@ -30,6 +30,7 @@ HANDED_ON = (
     "has_ridges",
     "timeline",
     "untried",
+    "hidden",
     "answers",
     "coil_network",
     "innermost",
@@ -143,6 +144,12 @@ def test_steps_of_the_simulation_rise_over_all_readings(model: DiagnosisModel) -
 
 def test_what_could_not_be_tried_is_told_in_words(model: DiagnosisModel) -> None:
     assert all(isinstance(text, str) and text for text in model.untried)
+
+
+def test_what_hides_its_states_is_a_component(model: DiagnosisModel, folder: tuple[str, Path]) -> None:
+    own = folder[1] / "scenario.yaml"
+    there = load_scenario(str(own)).components if own.exists() else {}
+    assert set(model.hidden) <= set(there)
 
 
 def test_faults_are_of_a_recording_with_begin_and_end(model: DiagnosisModel) -> None:

@@ -150,6 +150,11 @@ class ClosedLoopModel(ModelBase):
         return () if self.system_laws is None else self.system_laws.untried
 
     @property
+    def hidden(self) -> tuple[str, ...]:
+        """Components that hide their states."""
+        return () if self.system_laws is None else self.system_laws.hidden
+
+    @property
     def can_be_searched_again(self) -> bool:
         """See `CosimModel`."""
         return self.model.can_be_searched_again

@@ -393,12 +393,14 @@ class SystemLaws:
         sensors: Laws of its sensors.
         usual: Numbers that may be off though nobody says so.
         untried: Where no law can be tried, and why.
+        hidden: Components that hide their states.
     """
 
     found: tuple[Fit, ...]
     sensors: tuple[UnitLaw, ...]
     usual: tuple[Free, ...]
     untried: tuple[str, ...]
+    hidden: tuple[str, ...]
 
 
 def laws_at(
@@ -431,7 +433,8 @@ def laws_at(
     ]
     untried = tuple(text for own in places for text in own.untried)
     longest = max((float(np.ptp(c.times)) for r in recordings for c in r.channels.values()), default=0.0)
-    return SystemLaws(tuple(fits(places, laws, step, macro, longest)), tuple(sensors), tuple(usual), untried)
+    hidden = tuple(own.component for own in places if own.is_hidden)
+    return SystemLaws(tuple(fits(places, laws, step, macro, longest)), tuple(sensors), tuple(usual), untried, hidden)
 
 
 def sample_step(recordings: Sequence[Recording]) -> float:

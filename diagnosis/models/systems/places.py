@@ -114,6 +114,7 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
         own.parameters = changeable(systems[0], fmu, own)
         own.room = surroundings(systems[0], fmu, own, *probed) or hidden_surroundings(systems[0], fmu, own)
         own.untried = _untried(fmu, own)
+        own.is_hidden = not fmu.is_model_exchange
         found.append(own)
     return found
 

@@ -67,6 +67,7 @@ class Places:
         parameters: Parameters that its derivatives hold.
         room: Temperature of the surroundings [K], where no input has it and the equations tell it.
         untried: Where no law can be tried, and why.
+        is_hidden: Whether the FMU is used by Co-Simulation, which hides its states.
     """
 
     component: str
@@ -83,3 +84,4 @@ class Places:
     parameters: dict[str, Changeable] = field(default_factory=dict)
     room: float | None = None
     untried: list[str] = field(default_factory=list)
+    is_hidden: bool = False

@@ -176,6 +176,11 @@ class WrappedModel:
         """Where no law can be tried, and why."""
         return self.inner.untried
 
+    @property
+    def hidden(self) -> tuple[str, ...]:
+        """See `DiagnosisModel`."""
+        return self.inner.hidden
+
     def input_terms(self) -> list[Term]:
         """See `DiagnosisModel`."""
         return self.inner.input_terms()
