@@ -229,7 +229,8 @@ class ClosedLoopModel(ModelBase):
 def _unit_law(fit: Fit) -> UnitLaw:
     """What a law at a place says about itself."""
     place = ComponentTerm(fit.term, fit.term.place, ())
-    name = f"{fit.law.name} ({fit.beside})" if fit.beside else fit.law.name
+    more = ", ".join([*([fit.beside] if fit.beside else []), *([f"read by {fit.seen_by}"] if fit.seen_by else [])])
+    name = f"{fit.law.name} ({more})" if more else fit.law.name
     return UnitLaw(place, name, fit.law.source, fit.law.confused_with)
 
 

@@ -1,18 +1,24 @@
-"""What outputs of a Model Exchange FMU are: a state, the derivative of one, or made of several.
+"""What outputs of a Model Exchange FMU are: a state, the derivative of one, a part of it, or made of several.
 
 Outputs that are a derivative (an accelerometer, the net flow into a store): a law is added to the derivative, which the
 FMU does not know, and its output leaves the law out. So the law is added to the output too. Outputs that are made of
 several quantities have an equation of their own, from which something may be missing as from those of the states.
+
+Outputs that are a part of a derivative (a load cell in series with a spring, a flow meter in a pipe, a heat flux in
+a wall) read what acts between states. A law that is missing from that spring, pipe or wall is missing from the output
+too; one beside it is not. Both are tried.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue, parse_unit, registry
+from diagnosis.laws.expression import names_in
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import FastFmu
 from diagnosis.models.systems.placed import Placed
@@ -108,18 +114,121 @@ def read_by_outputs(own: Places, placed: Placed) -> Iterator[Placed]:
     Raises:
         ValueError: A unit is none.
     """
-    state = placed.to[4:-1] if placed.to.startswith("der(") else ""
+    state = _state_of(placed)
     for output, factor in own.derivatives_read.get(state, {}).items():
-        per_second = parse_unit(own.states[state].unit) / parse_unit("s")
-        unit = registry().Quantity(1.0, parse_unit(own.output_units[output])) / registry().Quantity(1.0, per_second)
-        text = f"{unit.units:~C}".replace("**", "^") or "1"
-        constants = {**placed.constants, FACTOR: PhysicalValue(factor, text)}
-        yield Placed(
-            placed.component,
-            output,
-            f"{FACTOR} * ({placed.formula})",
-            placed.numbers,
-            constants,
-            placed.states,
-            placed.delays,
-        )
+        yield _read(own, placed, state, output, factor)
+
+
+def read_in_part(own: Places, placed: Placed) -> Iterator[Placed]:
+    """What an addition to a derivative adds to the outputs that are a part of it, where it acts over what they read.
+
+    Raises:
+        ValueError: A unit is none.
+    """
+    state = _state_of(placed)
+    used = set().union(*(names_in(f) for f in (placed.formula, *(s.rate for s in placed.states))))
+    used &= {*own.states, *own.inputs}
+    for output, (factor, over) in own.parts_read.get(state, {}).items():
+        if used and used <= over:
+            yield _read(own, placed, state, output, factor)
+
+
+def _state_of(placed: Placed) -> str:
+    """The state to whose derivative something is added; empty where it is another place."""
+    return placed.to[4:-1] if placed.to.startswith("der(") else ""
+
+
+def _read(own: Places, placed: Placed, state: str, output: str, factor: float) -> Placed:
+    """What an addition to the derivative of a state adds to an output."""
+    per_second = parse_unit(own.states[state].unit) / parse_unit("s")
+    unit = registry().Quantity(1.0, parse_unit(own.output_units[output])) / registry().Quantity(1.0, per_second)
+    text = f"{unit.units:~C}".replace("**", "^") or "1"
+    constants = {**placed.constants, FACTOR: PhysicalValue(factor, text)}
+    return Placed(
+        placed.component,
+        output,
+        f"{FACTOR} * ({placed.formula})",
+        placed.numbers,
+        constants,
+        placed.states,
+        placed.delays,
+    )
+
+
+def parts_read(system: FastSystem, fmu: FastFmu, own: Places) -> dict[str, dict[str, tuple[float, frozenset[str]]]]:
+    """Outputs that are a part of the derivative of a state, by which they are an inertia or a capacity times.
+
+    An output that changes with some states alone, and by the same amount times a factor as a derivative does when these
+    move, is that part of it. One of the unit of such a state is a difference or a sum of states, and no force; neither
+    is one whose factor is no inertia, capacity, inductance or area.
+
+    Args:
+        system: After a simulation.
+        fmu: One of its FMUs.
+        own: Its quantities, with `velocity_of`, `twist_of` and `derivatives_read`.
+
+    Returns:
+        State to output to the factor of its derivative, in their units, and the states over which a law may act there:
+        those with which the output changes, and the velocities of these.
+    """
+    outputs = _outputs(fmu, own)
+    whole = {n for read in own.derivatives_read.values() for n in read}
+    names, found = list(fmu.states), dict[str, dict[str, tuple[float, frozenset[str]]]]()
+    for output in (n for n in outputs if n not in whole):
+        over = _changes_with(system, fmu, own, output)
+        if not over or any(_dimension(own.states[n].unit) == _dimension(fmu.units[output]) for n in over):
+            continue
+        _, rates, read = _moved(system, fmu, own, over)
+        for state in (n for n in own.states if n not in own.velocity_of and n not in own.twist_of):
+            factor = _line(rates[:, names.index(state)], read[output])
+            if factor is not None and _is_inertia(fmu.units[output], own.states[state].unit):
+                moving = {own.velocity_of[n] for n in over if n in own.velocity_of}
+                found.setdefault(state, {})[output] = factor, frozenset(over) | moving
+    return found
+
+
+def _changes_with(system: FastSystem, fmu: FastFmu, own: Places, output: str) -> frozenset[str]:
+    """States with which an output changes; none where it changes with an input too."""
+    _, _, read = _moved(system, fmu, own, frozenset())
+    if float(np.ptp(read[output])) > 0.0:
+        return frozenset()
+    return frozenset(n for n in own.states if float(np.ptp(_moved(system, fmu, own, frozenset({n}))[2][output])) > 0.0)
+
+
+def _moved(
+    system: FastSystem, fmu: FastFmu, own: Places, over: frozenset[str]
+) -> tuple[Array, Array, dict[str, Array]]:
+    """As `_asked`, where some states move and all else stays; where none does, inputs move."""
+    rng = np.random.default_rng(SEED)
+    names, before = list(fmu.states), fmu.inner.copy()
+    states, rates, read = [], [], []
+    for _ in range(PROBES):
+        for name, quantity in own.inputs.items():
+            moved = 0.0 if over else quantity.size * rng.standard_normal()
+            fmu.inner[fmu.inputs[name]] = quantity.middle + moved
+        for write in fmu.writers:
+            write()
+        own_sizes = [own.states[n].size if n in over else 0.0 for n in names]
+        point = np.array([own.states[n].middle + s * rng.standard_normal() for n, s in zip(names, own_sizes)])
+        found = system.outputs_at(own.component, system.start / 1e9, point)
+        states.append(point)
+        rates.append(found[0])
+        read.append(found[1])
+    fmu.inner[:] = before
+    for write in fmu.writers:
+        write()
+    return np.array(states), np.array(rates), {n: np.array([r[n] for r in read]) for n in read[0]}
+
+
+#: Units of what turns the rate of a state into a force, a heat, a flow, a voltage or a current.
+_INERTIAS = ("kg", "kg*m", "kg*m^2", "J/K", "m^2", "m^3/Pa", "H", "F")
+
+
+def _is_inertia(output: str, state: str) -> bool:
+    """Whether an output over the rate of a state is an inertia, a capacity, an area or an inductance."""
+    found = _dimension(output) / (_dimension(state) / parse_unit("s").dimensionality)
+    return any(found == _dimension(unit) for unit in _INERTIAS)
+
+
+def _dimension(unit: str) -> Any:
+    return parse_unit(unit).dimensionality

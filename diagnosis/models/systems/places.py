@@ -18,7 +18,7 @@ from diagnosis.laws.at_inputs import OVER
 from diagnosis.laws.expression import names_in, renamed
 from diagnosis.laws.law import Law, Number, Role
 from diagnosis.models.systems.changeable import changeable, why_none
-from diagnosis.models.systems.derivative_outputs import outputs_read, read_by_outputs
+from diagnosis.models.systems.derivative_outputs import FACTOR, outputs_read, parts_read, read_by_outputs, read_in_part
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import FastFmu, NotFast
 from diagnosis.models.systems.placed import Placed, PlacedDelay, PlacedState
@@ -37,6 +37,11 @@ SEED = 20
 FAR = 5.0
 #: The same of a state that drives an exchange: from there on it begins away from 0.
 BEGUN = 0.5
+#: What an output that is a part of a derivative reads of a law in it: the inertia that turns one into the other is the
+#: scenario's, which may be off.
+SHARE = TermParameter(
+    "share_read", "1", 0.5, 2.0, (1.0,), meaning="what the output reads of it, over what the scenario's inertia gives"
+)
 #: Roles whose laws act on an input. Where the FMU hides its states, what a lag passes is held over a macro-step, late
 #: by half of one in the mean: the lag that is found is short by that.
 HELD = (Role.INPUT, Role.STARTED_INPUT, Role.PORT)
@@ -54,7 +59,8 @@ class Fit:
         beside: Name of that part, of the surroundings where there are several, or of what a parameter changes with;
             empty where there is one choice.
         read: The same in outputs that are derivatives which it is added to: an accelerometer reads a force that the
-            equations of the FMU do not have.
+            equations of the FMU do not have. Or in one that is the part of a derivative in which it acts.
+        seen_by: That output; empty where it acts beside what an output reads in part.
     """
 
     law: Law
@@ -63,6 +69,7 @@ class Fit:
     reaction: Placed | None = None
     beside: str = ""
     read: tuple[Placed, ...] = ()
+    seen_by: str = ""
 
     @property
     def every(self) -> tuple[Placed, ...]:
@@ -107,7 +114,9 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
         probed = _probed(systems[0], fmu, own)
         own.velocity_of, own.twist_of = _kinematics(*probed)
         own.derivatives_read, composed = outputs_read(systems[0], fmu, own)
-        own.output_units = {n: fmu.units[n] for read in own.derivatives_read.values() for n in read}
+        own.parts_read = parts_read(systems[0], fmu, own)
+        read = [n for of in (own.derivatives_read, own.parts_read) for outputs in of.values() for n in outputs]
+        own.output_units = {n: fmu.units[n] for n in read}
         own.readings = _quantities(fmu, composed, [(name, n) for n in composed], courses, step)
         own.apart = _apart(fmu, own, courses, step)
         own.acted_on_by = _acting(systems[0], own, *probed)
@@ -286,6 +295,7 @@ def fits(
                 if signature not in seen:
                     seen[signature] = fit
                     yield fit
+                    yield from _in_what_is_read(own, fit)
                 elif (other := _other_sign(fit, seen[signature])) is not None:
                     yield other
 
@@ -359,6 +369,32 @@ def _fit(own: Places, law: Law, to: str, target: Quantity, symbols: Mapping[str,
     identifier = law.identifier + "".join(f"_of_{n}" for n in others)
     term = Term(identifier, label, domain, parameters, law.is_named, what, is_completing=law.is_completing)
     return Fit(law, placed, term, reaction, beside, read)
+
+
+def _in_what_is_read(own: Places, fit: Fit) -> Iterator[Fit]:
+    """The law in each part of a derivative that an output reads, as a load cell or a flow meter does."""
+    if fit.law.is_completing:
+        return
+    found: dict[str, Placed] = {}
+    for placed in fit.every:
+        for read in read_in_part(own, placed):
+            found.setdefault(read.to, read)
+    for output, read in found.items():
+        factor = read.constants[FACTOR]
+        numbers = (*read.numbers, (SHARE.name, SHARE.unit))
+        read = replace(read, formula=f"{SHARE.name} * {read.formula}", numbers=numbers)
+        law = f"{fit.term.law}, {output} += {read.formula}, {FACTOR} = {factor.number:g} {factor.unit}".rstrip()
+        term = replace(
+            fit.term,
+            identifier=f"{fit.term.identifier}_read_by_{output}",
+            parameters=(*fit.term.parameters, SHARE),
+            law=law,
+        )
+        try:
+            _check(own, read, read.to)
+        except (FormulaError, ValueError):
+            continue
+        yield replace(fit, term=term, read=(*fit.read, read), seen_by=output)
 
 
 def _other_sign(fit: Fit, first: Fit) -> Fit | None:

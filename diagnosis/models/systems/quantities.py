@@ -61,6 +61,8 @@ class Places:
         velocity_of: Position to its velocity.
         apart: Two states of one unit to what they are apart by, whose name is that difference as a formula.
         derivatives_read: State to the outputs that are its derivative, times a factor in their units, plus a constant.
+        parts_read: State to outputs that are a part of its derivative, with the factor of that in their units, and the
+            states over which that part acts.
         output_units: Unit of each of these outputs.
         twist_of: State whose derivative is the difference of two others, to these two.
         acted_on_by: State to the other states that its derivative depends on.
@@ -79,6 +81,7 @@ class Places:
     apart: dict[tuple[str, str], Quantity] = field(default_factory=dict)
     twist_of: dict[str, tuple[str, str]] = field(default_factory=dict)
     derivatives_read: dict[str, dict[str, float]] = field(default_factory=dict)
+    parts_read: dict[str, dict[str, tuple[float, frozenset[str]]]] = field(default_factory=dict)
     output_units: dict[str, str] = field(default_factory=dict)
     acted_on_by: dict[str, frozenset[str]] = field(default_factory=dict)
     parameters: dict[str, Changeable] = field(default_factory=dict)
