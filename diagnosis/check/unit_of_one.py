@@ -71,6 +71,18 @@ OF_ONE: dict[str, tuple[str, ...]] = {
     "W/m^2": ("W/m^2", "kW/m^2", "mW/cm^2"),
     "1": ("1", "percent", "ppm"),
 }
+#: Scales of temperature in which numbers without a unit may be: that of the others, of this one, its slope and
+#: its zero.
+SCALES = (
+    ("degC", "degF", 1.8, 32.0),
+    ("degF", "degC", 1.0 / 1.8, -32.0 / 1.8),
+    ("degC", "K", 1.0, 273.15),
+    ("K", "degC", 1.0, -273.15),
+    ("degF", "K", 1.0 / 1.8, 459.67 / 1.8),
+    ("K", "degF", 1.8, -459.67),
+)
+#: How far the mean may be from what a scale gives, as a share of the standard deviation and of the mean.
+ABOUT, ABOUT_MEAN = 0.25, 0.02
 #: Share of a channel's variance that a straight line in its simulation explains, in every recording that is compared.
 FOLLOWED = 0.95
 #: How far apart the others may be, relative to their median, and how far a factor may be from one of units: where a
@@ -93,6 +105,10 @@ def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
             continue
         stated = stated_unit(one, name)
         base = one.channels[name].channel.unit
+        scales = _scale_of_one(one, [o for o in every if o is not one], name) if base == "1" else None
+        if scales is not None:
+            yield _of_scale(one, name, *scales)
+            continue
         near = units_near(ratio, stated, base, more=OF_ONE.get(base, ()))
         if not near:
             continue
@@ -103,6 +119,42 @@ def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
         remedy = f"is `channels.{name}.unit` of this recording right?"
         z = abs(float(np.log(ratio))) / NEAR
         yield Doubt(one.recording.title, name, "unit", text, remedy, True, one.begin, one.end, z)
+
+
+def _scale_of_one(one: Compared, others: Sequence[Compared], name: str) -> tuple[str, str] | None:
+    """Scales of temperature in which numbers of the others and of one recording seem to be; None where they are alike.
+
+    A pure number has no zero that is known: a scale tells itself by its slope and its zero together.
+    """
+    lines = [_line(o.channels[name]) for o in others if name in o.channels]
+    own = _line(one.channels[name])
+    if own is None or any(line is None for line in lines) or not lines:
+        return None
+    zero, usual = np.median(np.array(lines, dtype=np.float64), axis=0).tolist()
+    beside = one.channels[name]
+    there, ratio = zero + usual * float(np.mean(beside.simulated_there)), own[1] / usual
+    mean, width = float(np.mean(beside.measured)), float(np.std(beside.measured))
+    for theirs, mine, factor, shift in SCALES:
+        is_near = abs(mean - factor * there - shift) < ABOUT * width + ABOUT_MEAN * abs(mean)
+        if is_near and abs(np.log(ratio / factor)) < NEAR:
+            return theirs, mine
+    return None
+
+
+def _line(beside: Beside) -> tuple[float, float] | None:
+    """Zero and slope of the readings in the simulation, where a straight line explains them."""
+    found = slope(beside)
+    if found is None:
+        return None
+    return float(np.mean(beside.measured)) - found * float(np.mean(beside.simulated_there)), found
+
+
+def _of_scale(one: Compared, name: str, theirs: str, mine: str) -> Doubt:
+    text = (
+        f"beside the simulation its readings are as if in {mine}, and those of the other recordings as if in {theirs}"
+    )
+    remedy = f"in what did this sensor read? Convert the column of `channels.{name}` of this recording"
+    return Doubt(one.recording.title, name, "unit", text, remedy, True, one.begin, one.end, np.log(1.8) / NEAR)
 
 
 def ratio_to(own: float | None, others: Sequence[float | None]) -> float | None:

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 
 from cosim.scenario import load_scenario
+from cosim.unit.protocol import Array
 from diagnosis.check.check import check_recordings
 from diagnosis.check.unit_of_one import OF_ONE, units_near
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import load_recording
-from tests.systems.rigs import oscillator, oscillator_recordings
+from evaluation.fmus.model import OdeModel
+from tests.systems.rigs import held, oscillator, oscillator_recordings, write_recording
 
 
 def doubts(folder: Path, recordings: list[Path]) -> list[Doubt]:
@@ -78,3 +82,59 @@ def test_nanometres_stated_as_metres_are_told(rig: tuple[Path, list[Path], str])
 )
 def test_units_of_laboratories_are_known_by_their_factor(unit: str, stated: str, base: str, factor: float) -> None:
     assert unit in units_near(factor, stated, base, more=OF_ONE[base])
+
+
+#: A plate that is heated, without units: its temperature is a number of some scale.
+PLATE = OdeModel(
+    "plate",
+    {"C": (40.0, ""), "h": (0.5, "")},
+    {"power": ""},
+    {"T": ("", "22.0", "(power - h*(T - 22.0))/C")},
+    {"warm": ("", "T"), "shown": ("", "T*T/100.0")},
+    2.0,
+)
+PLATE_SCENARIO = """\
+title: A plate
+time: {stop: 600 s, macro_step: 2 s, output_step: 2 s}
+components:
+  heater: {kind: programme, outputs: {power: {unit: "1", constant: "10"}}}
+  plate: {kind: fmu, fmu: plate.fmu}
+connections: [heater.power -> plate.power]
+"""
+
+
+def _plates(folder: Path, spoil: Callable[[Array], Array]) -> list[Path]:
+    """Three recordings; the temperature of the second is written as `spoil` makes it."""
+    PLATE.build(folder)
+    (folder / "scenario.yaml").write_text(PLATE_SCENARIO, encoding="utf-8")
+    found = []
+    for number in range(3):
+        rng = np.random.default_rng(70 + number)
+        power = np.repeat(rng.uniform(0.0, 30.0, 10), 30)
+        warm = held(lambda x, u: (u - 0.51 * (x - 22.0)) / 39.0, np.array([22.0]), power, 2.0)[:, 0]
+        read = warm + 0.05 * rng.standard_normal(len(warm))
+        columns = {"t": 2.0 * np.arange(300), "P": power, "T": spoil(read) if number == 1 else read}
+        columns["s"] = warm**2 / 100.0 + 0.05 * rng.standard_normal(len(warm))
+        channels = {"plate.warm": ("T", "1", "0.05"), "plate.shown": ("s", "1", "0.05")}
+        found.append(write_recording(folder / f"run_{number + 1}", columns, {"heater.power": ("P", "1")}, channels))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("scale", "spoil"),
+    [("degF", lambda T: 1.8 * T + 32.0), ("K", lambda T: T + 273.15)],
+    ids=["degF", "K"],
+)
+def test_numbers_of_another_scale_of_temperature_are_told_without_units(
+    tmp_path: Path, scale: str, spoil: Callable[[Array], Array]
+) -> None:
+    (told,) = [d for d in doubts(tmp_path, _plates(tmp_path, spoil)) if d.is_serious]
+    assert (told.kind, told.recording, told.subject) == ("unit", "run_2", "plate.warm")
+    assert f"as if in {scale}, and those of the other recordings as if in degC" in told.statement
+
+
+@pytest.mark.parametrize(
+    "spoil", [lambda T: 1.8 * T, lambda T: T + 32.0, lambda T: 1.8 * T + 50.0, lambda T: T + 200.0, lambda T: T]
+)
+def test_another_slope_or_zero_alone_is_no_scale(tmp_path: Path, spoil: Callable[[Array], Array]) -> None:
+    assert not [d for d in doubts(tmp_path, _plates(tmp_path, spoil)) if "as if in" in d.statement]
