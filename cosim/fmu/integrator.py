@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
+import os
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,6 +31,7 @@ def load_cvode(name: str) -> Any:
     Raises:
         UnitError: It is not installed or does not load.
     """
+    os.environ.setdefault("SUNLOGGER_WARNING_FILENAME", os.devnull)  # SUNDIALS writes its warnings to standard output
     try:
         from sksundae.cvode import CVODE
     except ModuleNotFoundError as error:
@@ -41,6 +45,17 @@ def load_cvode(name: str) -> Any:
             remedy=f"install it again, {_OTHERWISE}",
         ) from error
     return CVODE
+
+
+class _Nowhere(io.TextIOBase):
+    """A stream that keeps nothing."""
+
+    def write(self, text: str, /) -> int:
+        """Forget it."""
+        return len(text)
+
+
+_NOWHERE = _Nowhere()
 
 
 @dataclass(frozen=True)
@@ -160,7 +175,8 @@ class Integrator:
             if self._is_fresh:
                 self._solver.init_step(begin, self.states)
                 self._is_fresh = False
-            solution = self._solver.step(end, method, end)
+            with contextlib.redirect_stdout(_NOWHERE):  # scikit-sundae prints a failure, which `message` has too
+                solution = self._solver.step(end, method, end)
             self._drop_record()
             if solution.success and np.isfinite(solution.y).all():
                 return solution
