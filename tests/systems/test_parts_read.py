@@ -145,6 +145,6 @@ def test_a_spring_that_hardens_is_found_in_what_the_load_cell_reads_or_beside_it
     assert found.verdict is Verdict.MISSING_PHYSICS
     (finding,) = [f for f in found.findings if f.is_accepted]
     assert finding.effect.startswith("coupling_cubic_spring")
-    assert finding.effect.endswith("_read_by_cell") == is_read
+    assert finding.effect.endswith("_of_what_cell_reads") == is_read
     assert finding.is_named
     assert finding.parameters[0].lower < 9e4 / 0.79 < finding.parameters[0].upper

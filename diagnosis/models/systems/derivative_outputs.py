@@ -11,7 +11,7 @@ too; one beside it is not. Both are tried.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -22,7 +22,7 @@ from diagnosis.laws.expression import names_in
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import FastFmu
 from diagnosis.models.systems.placed import Placed
-from diagnosis.models.systems.quantities import Places
+from diagnosis.models.systems.quantities import Places, Quantity
 
 #: Random points at which the equations are asked, and their seed.
 PROBES, SEED = 8, 21
@@ -77,17 +77,31 @@ def _outputs(fmu: FastFmu, own: Places) -> list[str]:
     return [n for n, a in fmu.outputs.items() if a.size == 1 and n in fmu.units and n not in fmu.states]
 
 
-def _asked(system: FastSystem, fmu: FastFmu, own: Places) -> tuple[Array, Array, dict[str, Array]]:
-    """Random states, shape (probes, states), their rates there, and outputs by name, shape (probes,)."""
+def _asked(
+    system: FastSystem, fmu: FastFmu, own: Places, moving: Collection[str] | None = None
+) -> tuple[Array, Array, dict[str, Array]]:
+    """Random states, shape (probes, states), their rates there, and outputs by name, shape (probes,).
+
+    Args:
+        system: After a simulation.
+        fmu: One of its FMUs.
+        own: Its quantities.
+        moving: States and inputs that move, where the others stay at their middles; None: all.
+    """
     rng = np.random.default_rng(SEED)
     names, before = list(fmu.states), fmu.inner.copy()
+
+    def drawn(name: str, quantity: Quantity) -> float:
+        size = quantity.size * rng.standard_normal()
+        return quantity.middle + (size if moving is None or name in moving else 0.0)
+
     states, rates, read = [], [], []
     for _ in range(PROBES):
         for name, quantity in own.inputs.items():
-            fmu.inner[fmu.inputs[name]] = quantity.middle + quantity.size * rng.standard_normal()
+            fmu.inner[fmu.inputs[name]] = drawn(name, quantity)
         for write in fmu.writers:
             write()
-        point = np.array([own.states[n].middle + own.states[n].size * rng.standard_normal() for n in names])
+        point = np.array([drawn(n, own.states[n]) for n in names])
         found = system.outputs_at(own.component, system.start / 1e9, point)
         states.append(point)
         rates.append(found[0])
@@ -171,53 +185,34 @@ def parts_read(system: FastSystem, fmu: FastFmu, own: Places) -> dict[str, dict[
         State to output to the factor of its derivative, in their units, and the states over which a law may act there:
         those with which the output changes, and the velocities of these.
     """
-    outputs = _outputs(fmu, own)
     whole = {n for read in own.derivatives_read.values() for n in read}
     names, found = list(fmu.states), dict[str, dict[str, tuple[float, frozenset[str]]]]()
-    for output in (n for n in outputs if n not in whole):
-        over = _changes_with(system, fmu, own, output)
-        if not over or any(_dimension(own.states[n].unit) == _dimension(fmu.units[output]) for n in over):
+    over = _changing_with(system, fmu, own, [n for n in _outputs(fmu, own) if n not in whole])
+    for output, states in over.items():
+        if any(_dimension(own.states[n].unit) == _dimension(fmu.units[output]) for n in states):
             continue
-        _, rates, read = _moved(system, fmu, own, over)
+        _, rates, read = _asked(system, fmu, own, states)
         for state in (n for n in own.states if n not in own.velocity_of and n not in own.twist_of):
             factor = _line(rates[:, names.index(state)], read[output])
             if factor is not None and _is_inertia(fmu.units[output], own.states[state].unit):
-                moving = {own.velocity_of[n] for n in over if n in own.velocity_of}
-                found.setdefault(state, {})[output] = factor, frozenset(over) | moving
+                moving = {own.velocity_of[n] for n in states if n in own.velocity_of}
+                found.setdefault(state, {})[output] = factor, states | moving
     return found
 
 
-def _changes_with(system: FastSystem, fmu: FastFmu, own: Places, output: str) -> frozenset[str]:
-    """States with which an output changes; none where it changes with an input too."""
-    _, _, read = _moved(system, fmu, own, frozenset())
-    if float(np.ptp(read[output])) > 0.0:
-        return frozenset()
-    return frozenset(n for n in own.states if float(np.ptp(_moved(system, fmu, own, frozenset({n}))[2][output])) > 0.0)
-
-
-def _moved(
-    system: FastSystem, fmu: FastFmu, own: Places, over: frozenset[str]
-) -> tuple[Array, Array, dict[str, Array]]:
-    """As `_asked`, where some states move and all else stays; where none does, inputs move."""
-    rng = np.random.default_rng(SEED)
-    names, before = list(fmu.states), fmu.inner.copy()
-    states, rates, read = [], [], []
-    for _ in range(PROBES):
-        for name, quantity in own.inputs.items():
-            moved = 0.0 if over else quantity.size * rng.standard_normal()
-            fmu.inner[fmu.inputs[name]] = quantity.middle + moved
-        for write in fmu.writers:
-            write()
-        own_sizes = [own.states[n].size if n in over else 0.0 for n in names]
-        point = np.array([own.states[n].middle + s * rng.standard_normal() for n, s in zip(names, own_sizes)])
-        found = system.outputs_at(own.component, system.start / 1e9, point)
-        states.append(point)
-        rates.append(found[0])
-        read.append(found[1])
-    fmu.inner[:] = before
-    for write in fmu.writers:
-        write()
-    return np.array(states), np.array(rates), {n: np.array([r[n] for r in read]) for n in read[0]}
+def _changing_with(system: FastSystem, fmu: FastFmu, own: Places, outputs: Sequence[str]) -> dict[str, frozenset[str]]:
+    """Outputs that change with states alone, with these states; not those that change with an input too."""
+    if not outputs:
+        return {}
+    _, _, by_inputs = _asked(system, fmu, own, own.inputs)
+    asked = [n for n in outputs if not np.ptp(by_inputs[n]) > 0.0]
+    found: dict[str, set[str]] = {n: set() for n in asked}
+    for state in own.states:
+        _, _, read = _asked(system, fmu, own, (state,))
+        for output in asked:
+            if np.ptp(read[output]) > 0.0:
+                found[output].add(state)
+    return {n: frozenset(states) for n, states in found.items() if states}
 
 
 #: Units of what turns the rate of a state into a force, a heat, a flow, a voltage or a current.

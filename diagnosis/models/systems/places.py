@@ -386,7 +386,7 @@ def _in_what_is_read(own: Places, fit: Fit) -> Iterator[Fit]:
         law = f"{fit.term.law}, {output} += {read.formula}, {FACTOR} = {factor.number:g} {factor.unit}".rstrip()
         term = replace(
             fit.term,
-            identifier=f"{fit.term.identifier}_read_by_{output}",
+            identifier=f"{fit.term.identifier}_of_what_{output}_reads",
             parameters=(*fit.term.parameters, SHARE),
             law=law,
         )
