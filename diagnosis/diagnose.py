@@ -49,6 +49,7 @@ from diagnosis.judge.unfitted import (
     can_be_moved,
     left_out_readings,
     left_out_stretches,
+    with_rows_estimated,
 )
 from diagnosis.judge.verdict import evident, verdict, why_open
 from diagnosis.judge.within_rows import within_rows
@@ -199,7 +200,7 @@ def diagnose(
     fits: list[ChannelFit] = channel_fits(model, training, points, is_held_out=False)
     carried: dict[str, Point] = {}
     if judge is not None:
-        carried = {stage: carried_over(point, model, judge) for stage, point in points.items()}
+        carried = {s: with_rows_estimated(judge, carried_over(p, model, judge)) for s, p in points.items()}
         judge, carried = begun(judge, model, carried, held_out)
         fits += channel_fits(judge, held_out, carried, is_held_out=True)
     units = written_units(both)

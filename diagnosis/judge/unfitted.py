@@ -373,36 +373,60 @@ class HeldOutReadings:
         return may, columns
 
     def _with_day(self, point: Point) -> Point:
-        """The point with the day's own numbers estimated: Gauss-Newton with their priors and Huber weights.
-
-        Where even then more than noise is left, errors of the model count as those of the sensors do, so that no room
-        is moved far to make up for them.
-        """
-        model = self._judge
+        """The point with the day's own numbers estimated; see `day_estimated`."""
         if self._columns is None:
-            self._columns = np.asarray(model.base_jacobian(point)[:, self._own], dtype=np.float64)
-        columns, base = self._columns, point.base.copy()
-        most = np.minimum(DAY, [model.parameters[i].bounds for i in self._own])
-        scale = np.ones(len(columns))
+            self._columns = np.asarray(self._judge.base_jacobian(point)[:, self._own], dtype=np.float64)
+        return day_estimated(self._judge, self._own, point, self._columns)
+
+
+def with_rows_estimated(judge: DiagnosisModel, point: Point) -> Point:
+    """The point with the instants estimated at which inputs changed between two rows of held-out tables.
+
+    Nothing says them, and predictions are judged with them: so they stand in tables too.
+
+    Args:
+        judge: Model of the held-out recordings.
+        point: Of that model.
+    """
+    own = [i for i, p in enumerate(judge.parameters) if p.is_within_row and p.own is not None]
+    if not own or not judge.can_be_fitted:
+        return point
+    columns = np.asarray(judge.base_jacobian(point)[:, own], dtype=np.float64)
+    return day_estimated(judge, own, point, columns)
+
+
+def day_estimated(model: DiagnosisModel, own: Sequence[int], point: Point, columns: Array) -> Point:
+    """The point with some numbers estimated: Gauss-Newton with their priors and Huber weights.
+
+    Where even then more than noise is left, errors of the model count as those of the sensors do, so that no room is
+    moved far to make up for them.
+
+    Args:
+        model: Of the recordings to which they belong.
+        own: Which parameters.
+        point: From where.
+        columns: Derivatives of the residuals by them, shape (residuals, numbers).
+    """
+    base = point.base.copy()
+    most = np.minimum(DAY, [model.parameters[i].bounds for i in own])
+    scale = np.ones(len(columns))
+    for _ in range(STEPS):
         for _ in range(STEPS):
-            for _ in range(STEPS):
-                here = _finite(model.residuals([Point(base, point.terms)])[0])
-                weight = huber_weights(here * scale) ** 2 * scale**2
-                normal = columns.T @ (weight[:, None] * columns) + np.eye(len(self._own))
-                slope = columns.T @ (weight * here) + base[self._own]
-                moved = np.clip(base[self._own] - np.linalg.solve(normal, slope), -most, most)
-                is_settled = bool(np.max(np.abs(moved - base[self._own])) < 1e-3)
-                base[self._own] = moved
-                if is_settled:
-                    break
-            factor = inflation(_finite(model.residuals([Point(base, point.terms)])[0]), model.layout)
-            wanted = (
-                1.0 / np.sqrt(np.where(factor > BELIEVED, factor, 1.0))[np.asarray(model.layout.channel, dtype=int)]
-            )
-            if np.allclose(wanted, scale, rtol=0.05):
+            here = _finite(model.residuals([Point(base, point.terms)])[0])
+            weight = huber_weights(here * scale) ** 2 * scale**2
+            normal = columns.T @ (weight[:, None] * columns) + np.eye(len(own))
+            slope = columns.T @ (weight * here) + base[own]
+            moved = np.clip(base[own] - np.linalg.solve(normal, slope), -most, most)
+            is_settled = bool(np.max(np.abs(moved - base[own])) < 1e-3)
+            base[own] = moved
+            if is_settled:
                 break
-            scale = wanted
-        return Point(base, point.terms)
+        factor = inflation(_finite(model.residuals([Point(base, point.terms)])[0]), model.layout)
+        wanted = 1.0 / np.sqrt(np.where(factor > BELIEVED, factor, 1.0))[np.asarray(model.layout.channel, dtype=int)]
+        if np.allclose(wanted, scale, rtol=0.05):
+            break
+        scale = wanted
+    return Point(base, point.terms)
 
 
 class LeftOutReadings:
