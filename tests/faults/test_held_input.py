@@ -9,10 +9,13 @@ import pytest
 
 from cosim.scenario import load_scenario
 from diagnosis.diagnose import Options, diagnose
+from diagnosis.faults.model import with_faults
 from diagnosis.faults.programme import InputChange
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
+from diagnosis.models.build import models_of
 from diagnosis.recording.recording import load_recording
-from diagnosis.search.search import Settings
+from diagnosis.search.score import Projection
+from diagnosis.search.search import Settings, recalibrate
 from tests.systems.rigs import held, tank, write_recording
 
 STEP, COUNT = 0.5, 400
@@ -66,3 +69,29 @@ def test_an_input_that_stays_is_found_with_its_interval(tmp_path: Path) -> None:
 
 def test_a_valve_that_follows_its_command_has_no_fault(tmp_path: Path) -> None:
     assert not [f for f in _diagnosed(tmp_path, None).findings if f.is_accepted]
+
+
+def test_what_an_input_that_stays_does_is_simulated_at_every_interval_once(tmp_path: Path) -> None:
+    scenario = load_scenario(str(tank(tmp_path, "200 s", "500 ms")))
+    rng = np.random.default_rng(31)
+    stated = np.repeat(rng.uniform(0.005, 0.03, COUNT // 16), 16)
+    given = stated.copy()
+    given[slice(*STAYS)] = stated[STAYS[0]]
+    level = held(lambda h, q: (q - 0.0203 * h) / 0.495, np.array([0.4]), given, STEP)[:, 0]
+    columns = {"t": STEP * np.arange(COUNT), "q": stated, "h": level + 1e-3 * rng.standard_normal(COUNT)}
+    inputs, channels = {"pump.inflow": ("q", "m^3/s")}, {"tank.level": ("h", "m", "1 mm")}
+    recording = load_recording(write_recording(tmp_path / "run", columns, inputs, channels))
+    model, _ = models_of(scenario, [recording], [], ())
+    faulty = with_faults(model)
+    base = recalibrate(faulty)
+    projection = Projection(base)
+    projection.noise(4, 0)
+    found, made = [], []
+    for _ in range(2):
+        before = faulty.simulations
+        scoring = faulty.interval_scores(base, projection)
+        made.append(faulty.simulations - before)
+        found.append(next(s for s in scoring.ranked if s.term.identifier == "input_held_in_interval"))
+    assert found[0].values == found[1].values
+    assert found[0].gain == pytest.approx(found[1].gain, rel=1e-6)
+    assert made[1] < made[0] - 100
