@@ -129,7 +129,10 @@ def in_parts(finding: Finding, every: Sequence[Finding], hidden: Sequence[str]) 
     if not is_part(finding):
         return finding
     doubts = (*([PARTS] if not others <= {finding.place} else []), *([INSIDE] if own in hidden else []))
-    return replace(finding, doubts=(*finding.doubts, *doubts))
+    told = finding.statement
+    if own in hidden:
+        told = told.replace(f", {finding.place}", f", in {own} or at {finding.place}", 1)
+    return replace(finding, statement=told, doubts=(*finding.doubts, *doubts))
 
 
 def _is_beside_unnamed(finding: Finding, every: Sequence[Finding]) -> bool:

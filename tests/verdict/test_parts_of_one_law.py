@@ -59,7 +59,9 @@ def test_laws_of_a_network_of_coils_are_told_as_before() -> None:
 
 
 def test_at_an_fmu_that_hides_its_states_a_law_without_a_name_may_be_one_inside() -> None:
-    assert in_parts(WARMTH, [WARMTH], ("tank",)).doubts == (INSIDE,)
+    told = in_parts(WARMTH, [WARMTH], ("tank",))
+    assert told.doubts == (INSIDE,)
+    assert told.statement == "an effect without a name, in tank or at tank.warmth"
     assert in_parts(WARMTH, [WARMTH, LIGHT], ("tank",)).doubts == (PARTS, INSIDE)
     named = replace(LIGHT, standing=Standing.NAMED, is_named=True)
     sensor, fault = law("tank.oxygen", "sensor_drift", "measurement"), law("tank.light", HELD.identifier, "signal")
