@@ -162,7 +162,7 @@ def test_a_resistance_that_is_not_positive_is_refused_by_name(value):
 
 def test_an_input_that_is_no_number_is_refused():
     unit = CircuitUnit("circuit", Network((3,)))
-    with pytest.raises(UnitError, match=r"resistance\[1\]"):
+    with pytest.raises(UnitError, match=r"resistance\[2\]"):
         unit.set("resistance", np.array([1.0, np.nan, 1.0]))
 
 

@@ -56,7 +56,7 @@ FAILURES = {
     "not finite": (
         # 1e305 MV are a number, in volts they are none.
         lambda: supplied(("1 s", "1e305 MV"), unit="MV"),
-        r"circuit at t = 1 s: .*supply_voltage\[5\].*finite.*, through supply.voltage -> circuit.supply_voltage",
+        r"circuit at t = 1 s: .*supply_voltage\[6\].*finite.*, through supply.voltage -> circuit.supply_voltage",
     ),
 }
 

@@ -245,5 +245,5 @@ def test_a_hanging_mass_stretches_its_coil_by_its_weight():
     np.testing.assert_allclose(unit.get("extension"), 0.5 * 9.81 / np.array([157.1, 356.0]), rtol=1e-14)
     np.testing.assert_allclose(unit.get("length"), REST + unit.get("extension"), rtol=1e-14)
     unit.set("stiffness", np.array([157.1, 0.0]))
-    with pytest.raises(UnitError, match="coil 1 is 0"):
+    with pytest.raises(UnitError, match="coil 2 is 0"):
         unit.do_step(0, 1)
