@@ -91,17 +91,22 @@ def test_outputs_that_are_a_state_or_a_derivative_or_a_constant_are_not_made_of_
     assert list(own.readings) == ["force"]
 
 
-def test_a_force_that_the_mass_and_the_foundation_feel_is_found_at_both_and_the_amended_model_has_it(
-    tmp_path: Path,
-) -> None:
+def test_a_force_that_the_mass_and_the_foundation_feel_is_one_law_and_the_amended_model_has_it(tmp_path: Path) -> None:
     made = answer(tmp_path, CUBIC, CUBIC)
-    found = {f.effect: f for f in made.diagnosis.accepted}
-    assert set(found) == {"cubic_spring", "reading_cubed_of_x"}
-    assert found["cubic_spring"].parameters[0].value == pytest.approx(CUBIC / 0.5, rel=0.05)
-    assert found["reading_cubed_of_x"].parameters[0].value == pytest.approx(CUBIC, rel=0.05)
-    assert found["reading_cubed_of_x"].place == "rig.force"
+    (found,) = made.diagnosis.accepted
+    assert found.effect == "cubic_spring_of_what_force_reads"
+    assert found.is_named
+    assert found.parameters[0].value == pytest.approx(CUBIC / 0.5, rel=0.05)
+    assert found.parameters[-1].value == pytest.approx(1.0, abs=0.05)  # the mass is the stated one
     results = run(load_scenario(tmp_path / "answer" / "amended" / "scenario.yaml"))
     assert np.isfinite(results["rig.force"].values).all()
+
+
+def test_a_spring_beside_what_the_foundation_feels_is_the_mass_alone(tmp_path: Path) -> None:
+    made = answer(tmp_path, CUBIC, 0.0)
+    (found,) = made.diagnosis.accepted
+    assert found.effect == "cubic_spring"
+    assert found.parameters[0].value == pytest.approx(CUBIC / 0.5, rel=0.05)
 
 
 def test_a_sensor_of_the_foundation_alone_is_not_told_of_the_mass(tmp_path: Path) -> None:
