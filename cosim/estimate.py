@@ -92,7 +92,7 @@ def estimate(assembly: Assembly) -> Estimate:
     passed = {name: sum(v.size for v in unit.variables.values()) for name, unit in system.units.items()}
     memory = PROGRAM + COPIES * recorded + sum(_memory(c) for c in scenario.components.values())
     seconds = computing_time(scenario, passed=passed)
-    return Estimate(_steps(scenario), outputs, recorded, memory, seconds, length / NANOSECONDS)
+    return Estimate(scenario.time.macro_steps, outputs, recorded, memory, seconds, length / NANOSECONDS)
 
 
 def recorded_bytes(system: System, outputs: int) -> int:
@@ -122,8 +122,8 @@ def refuse_too_large(scenario: Scenario, recorded: int, outputs: int, folder: Pa
         raise InputError(
             scenario.path or "scenario",
             "time.output_step",
-            f"{_steps(scenario)} macro-steps with {outputs} recorded times take {size_in_words(needed)}; there are "
-            f"{size_in_words(free)} {where}",
+            f"{scenario.time.macro_steps} macro-steps with {outputs} recorded times take {size_in_words(needed)}; "
+            f"there are {size_in_words(free)} {where}",
             "take a longer output_step or a nearer stop" + ("" if folder is None else ", or make room"),
         )
 
@@ -137,7 +137,7 @@ def computing_time(scenario: Scenario, starts: int = 1, passed: Mapping[str, int
         passed: Numbers that components pass on in a macro-step, where they are known.
     """
     numbers = passed or {}
-    steps = _steps(scenario)
+    steps = scenario.time.macro_steps
     return starts * sum(steps * _of_a_step(scenario, n, c, numbers.get(n, 0)) for n, c in scenario.components.items())
 
 
@@ -147,15 +147,10 @@ def announcement(scenario: Scenario, starts: int = 1, jobs: int = 1) -> str:
     if seconds < WORTH_SAYING:
         return ""
     links = sum(c.rows * (2 * c.columns - 1) for c in scenario.components.values() if isinstance(c, FabricComponent))
-    what = f"{links} links" if links else f"{_steps(scenario)} macro-steps"
+    what = f"{links} links" if links else f"{scenario.time.macro_steps} macro-steps"
     runs = f", {starts} starts" if starts > 1 else ""
     time = f"about {_duration(seconds)} on an idle machine{_faster(scenario)}"
     return f"{what}{runs}: {time}. Ctrl-C keeps what is computed."
-
-
-def _steps(scenario: Scenario) -> int:
-    time = scenario.time
-    return (nanoseconds(time.stop) - nanoseconds(time.start)) // nanoseconds(time.macro_step)
 
 
 def _of_a_step(scenario: Scenario, name: str, component: Component, numbers: int) -> float:

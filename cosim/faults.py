@@ -148,32 +148,34 @@ def known_keys(model: type[BaseModel], place: Sequence[int | str]) -> list[str]:
         model: What the whole file is checked against.
         place: Keys that lead to the mapping; of a union the tag of its member too, as pydantic reports it.
     """
-    found: list[Any] = [model]
-    for step in place:
-        found = [inner for annotation in found for inner in _inside(annotation, step)]
-    return [key for annotation in found for key in _fields(annotation)]
+    return [key for annotation in _levels(model, place)[-1] for key in _fields(annotation)]
 
 
 def places_in_lists(model: type[BaseModel], place: Sequence[int | str]) -> list[bool]:
     """Which of the steps that lead to a fault are places in a list: a whole number may also be a key of a mapping."""
-    found, told = [model], []
-    for step in place:
-        is_list = any(get_origin(m) in (list, tuple) for annotation in found for m in _members(annotation))
-        told.append(isinstance(step, int) and is_list)
-        found = [inner for annotation in found for inner in _inside(annotation, step)]
-    return told
+    return [
+        isinstance(step, int)
+        and any(get_origin(m) in (list, tuple) for annotation in found for m in _members(annotation))
+        for step, found in zip(place, _levels(model, place))
+    ]
 
 
 def tags_of_members(model: type[BaseModel], place: Sequence[int | str]) -> list[bool]:
     """Which of the steps that lead to a fault are the tag of a member of a union, which is no key of the file."""
-    found: list[Any] = [model]
-    told: list[bool] = []
-    for step in place:
+    told = []
+    for step, found in zip(place, _levels(model, place)):
         models = [m for annotation in found for m in _members(annotation) if _is_model(m)]
         is_key = len(models) == 1 and step in models[0].model_fields  # of a tag one member is left, and keys follow
         told.append(not is_key and any(_has_tag(m, step) for m in models))
-        found = [inner for annotation in found for inner in _inside(annotation, step)]
     return told
+
+
+def _levels(model: type[BaseModel], place: Sequence[int | str]) -> list[list[Any]]:
+    """Annotations of what stands before each step, and after the last one."""
+    found: list[list[Any]] = [[model]]
+    for step in place:
+        found.append([inner for annotation in found[-1] for inner in _inside(annotation, step)])
+    return found
 
 
 def _members(annotation: Any) -> list[Any]:

@@ -74,6 +74,11 @@ class TimeSettings(Strict):
         "whole output steps.",
     )
 
+    @property
+    def macro_steps(self) -> int:
+        """Macro-steps of a run."""
+        return (nanoseconds(self.stop) - nanoseconds(self.start)) // nanoseconds(self.macro_step)
+
     @field_validator("start", "stop", "macro_step", "output_step", "checkpoint_step")
     @classmethod
     def _counted(cls, value: PhysicalValue) -> PhysicalValue:

@@ -11,7 +11,7 @@ import numpy as np
 from cosim.fmu.access import Access
 from cosim.fmu.binding import Binding
 from cosim.fmu.variables import FmuVariable
-from cosim.unit.protocol import AnyArray, Causality, UnitError, VariableType
+from cosim.unit.protocol import AnyArray, Causality, UnitError, VariableType, element_text
 
 Saved = list[AnyArray]
 
@@ -106,13 +106,6 @@ class Buffers:
         clocks = [v for n, v in self.values.items() if n not in self.writers and v.base is None]
         for array, copy in zip((*self._inputs, *self._blocks, *clocks), saved, strict=True):
             array[...] = copy
-
-
-def element_text(values: AnyArray) -> str:
-    """Index of the first element that is not finite, counted from 1, in brackets; empty for a scalar."""
-    if not values.ndim:
-        return ""
-    return str([int(i) + 1 for i in np.argwhere(~np.isfinite(values))[0]])
 
 
 def _filled(v: FmuVariable) -> AnyArray:

@@ -18,7 +18,7 @@ from cosim.fmu.units import UnitNames
 from cosim.fmu.values import array_of
 from cosim.fmu.variables import FmuVariable, Sizes, declared_array, start_value
 from cosim.unit.errors import InputError
-from cosim.unit.protocol import AnyArray, Causality, UnitError
+from cosim.unit.protocol import AnyArray, Causality, UnitError, are_equal
 from cosim.unit.quantity import PhysicalValue
 
 #: Relative rounding of a parameter that an FMU keeps in single precision.
@@ -200,7 +200,7 @@ class Table:
             except UnitError:
                 continue
             kept = known.values
-            if kept.item() == array.item() if kept.size == 1 else np.array_equal(kept, array):
+            if are_equal(kept, array):
                 continue
             rounding = _ROUNDING if array.dtype.kind == "f" else 0.0
             wrong = np.flatnonzero(~np.isclose(kept, array, rtol=rounding, atol=0.0, equal_nan=True))

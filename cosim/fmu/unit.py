@@ -13,7 +13,7 @@ from cosim.fmu.access import Access
 from cosim.fmu.added_terms import AddedTerms
 from cosim.fmu.archive import FmuArchive
 from cosim.fmu.binding import Binding, DiscreteStates, Interface
-from cosim.fmu.buffers import Buffers, Saved, element_text
+from cosim.fmu.buffers import Buffers, Saved
 from cosim.fmu.delays import SavedDelay
 from cosim.fmu.dependencies import dependencies
 from cosim.fmu.plain import plain, unplain
@@ -29,6 +29,7 @@ from cosim.unit.protocol import (
     UnitError,
     Variable,
     are_equal,
+    element_text,
     is_finite,
     seconds,
 )

@@ -10,13 +10,12 @@ import numpy as np
 import numpy.typing as npt
 
 from cosim.fmu.archive import FmuArchive
-from cosim.fmu.buffers import element_text
 from cosim.isolation.limits import Limits
 from cosim.isolation.message import STATUSES, Frame, Kind
 from cosim.isolation.process import IsolatedProcess
 from cosim.isolation.shared import SharedArrays
 from cosim.unit.errors import InputError
-from cosim.unit.protocol import AnyArray, Coordinate, StepOutcome, Unit, UnitError, Variable
+from cosim.unit.protocol import AnyArray, Coordinate, StepOutcome, Unit, UnitError, Variable, element_text
 
 _LOG = logging.getLogger(__name__)
 

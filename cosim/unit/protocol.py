@@ -58,6 +58,13 @@ def is_finite(values: AnyArray) -> bool:
     return math.isfinite(values.item()) if values.size == 1 else bool(np.isfinite(values).all())
 
 
+def element_text(values: AnyArray) -> str:
+    """Index of the first element that is not finite, counted from 1, in brackets; empty for a scalar."""
+    if not values.ndim:
+        return ""
+    return str([int(i) + 1 for i in np.argwhere(~np.isfinite(values))[0]])
+
+
 class StepStatus(Enum):
     """How a step ended (a failure raises `UnitError` instead)."""
 
@@ -211,8 +218,7 @@ class ArrayStore:
         array = self.arrays[name]
         array[...] = value
         if not is_finite(array):
-            where = [int(i) + 1 for i in np.argwhere(~np.isfinite(array))[0]] if array.ndim else []
-            raise UnitError(self.unit, f"input {name}{where or ''} is not a finite number")
+            raise UnitError(self.unit, f"input {name}{element_text(array)} is not a finite number")
 
     def get(self, name: str) -> Array:
         """The live array."""

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from scipy.linalg.blas import dtbsv
 
-from cosim.components import FabricComponent, ProgrammeComponent, nanoseconds
+from cosim.components import FabricComponent, ProgrammeComponent
 from cosim.estimate import computing_time
 from cosim.run import RunStopped
 from cosim.scenario import Scenario
@@ -274,8 +274,7 @@ def _hindrance(scenario: Scenario) -> str:
             f"{STARTS} simulations of this fabric take about {seconds / 60.0:.0f} min on one core: only the readings "
             "by themselves were looked at"
         )
-    span = nanoseconds(scenario.time.stop) - nanoseconds(scenario.time.start)
-    steps = span // nanoseconds(scenario.time.macro_step)
+    steps = scenario.time.macro_steps
     if steps > MOST_STEPS:
         return (
             f"the recording lasts {steps} macro-steps, which takes more than seconds to simulate: only the "

@@ -19,7 +19,7 @@ from diagnosis.check.odd_one_out import scaled_left
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
 from diagnosis.models.systems.fmu_layout import NotFast
 from diagnosis.models.systems.run import SystemRuns, is_system, run_quickly
-from diagnosis.recording.conditions import scenario_of
+from diagnosis.recording.conditions import on_grid, scenario_of
 from diagnosis.recording.recording import Input
 from diagnosis.recording.series import sample, series_of
 
@@ -34,13 +34,7 @@ def of_one_element(one: Compared) -> list[Course]:
 
 def is_quick(scenario: Scenario) -> bool:
     """Whether fifty simulations of each input take seconds: compiled code runs systems of FMUs, and nothing else."""
-    return is_system(scenario) and steps_of(scenario) <= MOST
-
-
-def steps_of(scenario: Scenario) -> int:
-    """Macro-steps of a run."""
-    time = scenario.time
-    return (nanoseconds(time.stop) - nanoseconds(time.start)) // nanoseconds(time.macro_step)
+    return is_system(scenario) and scenario.time.macro_steps <= MOST
 
 
 def given_as(course: Course, times: Array, values: Array) -> Input:
@@ -62,7 +56,7 @@ def parts_of(channels: dict[str, Beside], every: Array) -> list[Array]:
 
 
 class InputRuns:
-    """Runs of the scenario of one recording; FMUs are loaded once, at the first of them, and stay until `close`.
+    """Runs of the scenario of one recording, whose FMUs stay loaded until `close`.
 
     Args:
         one: A recording whose scenario is a system of FMUs.
@@ -73,8 +67,10 @@ class InputRuns:
         self.one = one
         self._base = one.base
         self._linear = {c.name: c.is_linear for c in one.courses}
-        self._system: SystemRuns | None = None
-        self._is_asked = False
+        try:
+            self._system: SystemRuns | None = SystemRuns(one.scenario)
+        except (InputError, NotFast, CompilerError):
+            self._system = None  # the co-simulation alone can run it
 
     def close(self) -> None:
         """Free the FMUs; safe to call twice."""
@@ -84,9 +80,8 @@ class InputRuns:
 
     def results(self, given: Sequence[Input]) -> xr.Dataset:
         """A run with some inputs in place of those that are stated; raises `RunStopped` where it runs away."""
-        system = self._of_fmus()
-        if system is not None:
-            found = system.with_courses({(i.component, i.output): self._programme(i) for i in given})
+        if self._system is not None:
+            found = self._system.with_courses({(i.component, i.output): self._programme(i) for i in given})
             if found is not None:
                 return found
         names = {(i.component, i.output) for i in given}
@@ -110,21 +105,9 @@ class InputRuns:
 
         return missed
 
-    def _of_fmus(self) -> SystemRuns | None:
-        """The system, loaded; None where only the co-simulation can run it."""
-        if not self._is_asked:
-            self._is_asked = True
-            try:
-                self._system = SystemRuns(self.one.scenario)
-            except (InputError, NotFast, CompilerError):
-                self._system = None
-        return self._system
-
     def _programme(self, given: Input) -> Programme:
         """What a programme gives: its points lie on the grid of macro-steps, as `scenario_of` puts them."""
         macro = nanoseconds(self.one.scenario.time.macro_step)
-        steps = np.round(given.times / (macro * 1e-9)).astype(np.int64)
-        last = np.append(steps[1:] != steps[:-1], True)  # of several values in one macro-step the latest one holds
-        times = tuple((steps[last] * macro).tolist())
+        steps, values = on_grid(given, macro * 1e-9)
         is_linear = self._linear[f"{given.component}.{given.output}"]
-        return Programme(times, np.asarray(given.values, dtype=np.float64)[last], given.unit, None, is_linear)
+        return Programme(tuple((steps * macro).tolist()), values, given.unit, None, is_linear)

@@ -28,7 +28,7 @@ from cosim.run import RunStopped
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import parse_unit
 from diagnosis.check.beside import Beside, Compared, Course
-from diagnosis.check.input_runs import InputRuns, given_as, is_quick, of_one_element, parts_of, steps_of
+from diagnosis.check.input_runs import InputRuns, given_as, is_quick, of_one_element, parts_of
 from diagnosis.check.odd_one_out import comparable, left, scaled_left
 from diagnosis.check.pause import NOTHING, STAYED, Pause, paused
 from diagnosis.check.timing import percent
@@ -88,7 +88,7 @@ def _asked(runs: InputRuns, others: Sequence[Compared], channels: dict[str, Besi
         told = _estimated(runs, channels, course, (low - margin, high + margin))
         if told is not None:
             found.append((course, *told))
-    asked = [course for course, *_ in found] or (courses if steps_of(one.scenario) <= MOST_PAUSES else [])
+    asked = [course for course, *_ in found] or (courses if one.scenario.time.macro_steps <= MOST_PAUSES else [])
     pauses = [pause for course in asked for pause in _pauses(runs, channels, course)]
     as_stated = max(scaled_left(b, b.simulated_there) for b in channels.values())
     pauses = [p for p in pauses if p.left < min(1.0 - MET, as_stated / PAUSED)]

@@ -105,7 +105,8 @@ def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
             continue
         stated = stated_unit(one, name)
         base = one.channels[name].channel.unit
-        scales = _scale_of_one(one, [o for o in every if o is not one], name) if base == "1" else None
+        others = [(o.channels[name], s) for o, s in slopes if o is not one and s is not None]
+        scales = _scale_of_one(one.channels[name], others, ratio) if base == "1" else None
         if scales is not None:
             yield _of_scale(one, name, *scales)
             continue
@@ -121,32 +122,24 @@ def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
         yield Doubt(one.recording.title, name, "unit", text, remedy, True, one.begin, one.end, z)
 
 
-def _scale_of_one(one: Compared, others: Sequence[Compared], name: str) -> tuple[str, str] | None:
+def _scale_of_one(beside: Beside, others: Sequence[tuple[Beside, float]], ratio: float) -> tuple[str, str] | None:
     """Scales of temperature in which numbers of the others and of one recording seem to be; None where they are alike.
 
     A pure number has no zero that is known: a scale tells itself by its slope and its zero together.
+
+    Args:
+        beside: The channel of the recording.
+        others: The channel of each of the others, with the slope of its readings in the simulation.
+        ratio: How many times theirs its own slope is.
     """
-    lines = [_line(o.channels[name]) for o in others if name in o.channels]
-    own = _line(one.channels[name])
-    if own is None or any(line is None for line in lines) or not lines:
-        return None
-    zero, usual = np.median(np.array(lines, dtype=np.float64), axis=0).tolist()
-    beside = one.channels[name]
-    there, ratio = zero + usual * float(np.mean(beside.simulated_there)), own[1] / usual
+    where = float(np.mean(beside.simulated_there))
+    there = float(np.median([np.mean(o.measured) + s * (where - np.mean(o.simulated_there)) for o, s in others]))
     mean, width = float(np.mean(beside.measured)), float(np.std(beside.measured))
     for theirs, mine, factor, shift in SCALES:
         is_near = abs(mean - factor * there - shift) < ABOUT * width + ABOUT_MEAN * abs(mean)
         if is_near and abs(np.log(ratio / factor)) < NEAR:
             return theirs, mine
     return None
-
-
-def _line(beside: Beside) -> tuple[float, float] | None:
-    """Zero and slope of the readings in the simulation, where a straight line explains them."""
-    found = slope(beside)
-    if found is None:
-        return None
-    return float(np.mean(beside.measured)) - found * float(np.mean(beside.simulated_there)), found
 
 
 def _of_scale(one: Compared, name: str, theirs: str, mine: str) -> Doubt:

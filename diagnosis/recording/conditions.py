@@ -12,6 +12,7 @@ import numpy as np
 from cosim.components import nanoseconds
 from cosim.scenario import Scenario, scenario_of_data
 from cosim.unit.errors import InputError
+from cosim.unit.protocol import AnyArray, Array
 from cosim.unit.quantity import PhysicalValue
 from cosim.yaml_file import parse_yaml, read_text
 from diagnosis.recording.recording import Input, Recording
@@ -91,6 +92,18 @@ def _merged(base: Any, change: Any) -> Any:
     return change
 
 
+def on_grid(given: Input, macro: float) -> tuple[AnyArray, Array]:
+    """Macro-steps and values of an input's points; of several readings in one macro-step the latest one holds.
+
+    Args:
+        given: The input.
+        macro: Macro-step [s].
+    """
+    steps = np.round(given.times / macro).astype(np.int64)
+    last = np.append(steps[1:] != steps[:-1], True)
+    return steps[last], given.values[last]
+
+
 def _put_points(data: dict[str, Any], recorded: Input, macro: float, recording: Recording) -> None:
     key = f"inputs.{recorded.component}.{recorded.output}"
     component = data.get("components", {}).get(recorded.component)
@@ -118,9 +131,7 @@ def _put_points(data: dict[str, Any], recorded: Input, macro: float, recording: 
             f"the programme gives {recorded.output} in {output.get('unit', '1')}: {error}",
             error.remedy,
         ) from error
-    steps = np.round(recorded.times / macro).astype(np.int64)
-    last = np.append(steps[1:] != steps[:-1], True)  # of several readings in one macro-step the latest one holds
-    steps, values = steps[last], recorded.values[last]
+    steps, values = on_grid(recorded, macro)
     if output.get("interpolation") != "linear":  # a value that stays needs no point
         changes = np.append(True, values[1:] != values[:-1])
         steps, values = steps[changes], values[changes]
