@@ -40,6 +40,7 @@ from evaluation.strangers import (
     twelfth_set,
     twentieth_set,
     twenty_first_set,
+    twenty_second_set,
 )
 from evaluation.strangers.first_set import Rng
 from evaluation.strangers.truth import OPEN, Truth
@@ -66,6 +67,7 @@ SETS = {
     "nineteenth": nineteenth_set.CASES,
     "twentieth": twentieth_set.CASES,
     "twenty_first": twenty_first_set.CASES,
+    "twenty_second": twenty_second_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
