@@ -69,9 +69,9 @@ class ProgrammeOutput(Strict):
             for element in value if isinstance(value, list) else [value]:
                 assert element is not None
                 element.to(self.unit)
-        times = [nanoseconds(t) for t, _ in self.points or []]
-        if any(a >= b for a, b in itertools.pairwise(times)):
-            raise ValueError("the times of `points` must rise")
+        for (one, _), (other, _) in itertools.pairwise(self.points or []):
+            if nanoseconds(one) >= nanoseconds(other):
+                raise ValueError(f"the times of `points` must rise, and {other} comes after {one}")
         return self
 
 

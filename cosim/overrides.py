@@ -40,7 +40,7 @@ def with_changes(data: object, changes: Sequence[str], keys: Sequence[str]) -> A
         value = parse_yaml(text, Path(f"--set {change}"))
         if value is None:
             raise InputError(f"--set {change}", "", "there is no value behind the equals sign", _EXAMPLE)
-        _put(changed, _path(change, key.strip(), changed, keys), value, change)
+        _put(changed, _with_places_of_names(_path(change, key.strip(), changed, keys), changed), value, change)
     return changed
 
 
@@ -70,6 +70,19 @@ def _path(change: str, key: str, data: Any, keys: Sequence[str]) -> list[str | i
             f"begin with one of: {', '.join([*keys, *map(str, names)])}",
         )
     return parts
+
+
+def _with_places_of_names(path: list[str | int], data: Any) -> list[str | int]:
+    """The path with `heat_loss`, `[10]` as the one name `heat_loss[10]` where a parameter of a component is meant.
+
+    Parameters of single links, and elements of arrays of FMUs, have such names; a list of values keeps its places.
+    """
+    if len(path) < 3 or path[-3] != "parameters" or not isinstance(path[-1], int):
+        return path
+    place = data
+    for part in path[:-1]:
+        place = place.get(part) if isinstance(place, dict) else None
+    return path if isinstance(place, list) else [*path[:-2], f"{path[-2]}[{path[-1]}]"]
 
 
 def _put(data: Any, path: Sequence[str | int], value: object, change: str) -> None:

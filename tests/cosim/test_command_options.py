@@ -9,6 +9,7 @@ from rich.console import Console
 from typer.testing import CliRunner
 
 from cosim.cli import app
+from cosim.overrides import with_changes
 from cosim.progress import Board, line, progress_bar, report_to, reporter, shortened, time_left
 from cosim.run import Progress
 from cosim.scenario import load_scenario, shipped_scenarios
@@ -40,6 +41,22 @@ def test_the_version_is_shown(cosim):
 )
 def test_set_replaces_one_key(change, read):
     assert read(load_scenario("hanging_coils", [change]))
+
+
+@pytest.mark.parametrize(
+    ("change", "key", "value"),
+    [
+        ("fabric.parameters.steel_loss[8]=50 %", "steel_loss[8]", "50 %"),
+        ('fabric.parameters."steel_loss[8]"=50 %', "steel_loss[8]", "50 %"),
+    ],
+)
+def test_a_parameter_of_a_single_link_is_set_by_its_name(change, key, value):
+    assert str(load_scenario("passive_drape", [change]).components["fabric"].parameters[key]) == value
+
+
+def test_a_list_of_values_keeps_its_places():
+    one = with_changes({"components": {"x": {"parameters": {"gains": [1, 2]}}}}, ["x.parameters.gains[2]=5"], [])
+    assert one["components"]["x"]["parameters"] == {"gains": [1, 5]}
 
 
 @pytest.mark.parametrize(

@@ -32,6 +32,11 @@ def changed(path, value, base=BASE):
 
 
 WRONG = [
+    (
+        ("components", "supply", "outputs", "voltage", "points"),
+        [["0 s", "0 V"], ["1.5 s", "4 V"], ["1.5 s", "0 V"]],
+        "the times of `points` must rise, and 1.5 s comes after 1.5 s",
+    ),
     (("title",), 5, "`5` is not text"),
     (("title",), None, "an empty value is not text"),
     (("title",), ["a"], "a list of 1 is not text"),
