@@ -27,9 +27,9 @@ _SOURCE = (
 _STOP_SOURCE = "M. Brokate, J. Sprekels, Hysteresis and Phase Transitions, Springer 1996, section 2.1 (stop operator)"
 #: Widths after a turn over which hysteresis is passed through, in sizes of the quantity.
 _TURNS = (0.1, 0.6)
-#: Where the first knot begins, and how far the second one is from it, in sizes of the quantity: three pieces that
-#: together span what it reaches.
-_ONSETS, _WIDTH = (-1.2, -0.2, 0.6), 0.8
+#: Where the first knot begins, in shares of what the quantity goes through, and how far the second one is from it, in
+#: sizes of the quantity: of what swings about where it begins, three pieces that together span what it reaches.
+_ONSETS, _WIDTH = (0.1, 0.4, 0.7), 0.8
 #: Knots stay within so many sizes of the value about which the quantity moves.
 _FARTHEST = 4.0
 #: Of a delay by what its law is added to: product that is a time, meaning, starts, largest and smallest value. A state

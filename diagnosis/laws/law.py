@@ -81,10 +81,12 @@ class Number:
         name: Symbol in the formula.
         of: Product of powers of symbols, from which follow its unit and its characteristic size: `rate/v`.
         meaning: What it is, in words.
-        starts: Values that a search begins from, in characteristic sizes.
+        starts: Values that a search begins from, in characteristic sizes; with an `origin`, shares of the way from the
+            least to the largest value that this takes in the recordings as the model has them.
         most: Largest value, in characteristic sizes.
         least: Smallest value, in characteristic sizes; None: as large as `most`, with the other sign.
-        origin: Symbol from whose middle value it is counted (a position), or empty.
+        origin: Symbol of which it is a value (a position of a stop), or empty; its bounds are counted from the value
+            at which that begins.
     """
 
     name: str

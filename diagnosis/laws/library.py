@@ -197,10 +197,10 @@ def _with_memory() -> list[Law]:
 
 def _beyond(side: str, distance: str) -> Law:
     """What an end stop would do, seen at an input."""
-    sign = 1.0 if side == "above" else -1.0
+    edges = (0.65, 0.8) if side == "above" else (0.35, 0.2)
     numbers = (
         Number("a", "u/o", "strength", (0.5, -0.5), 1e4, None),
-        Number("edge", "o", "value from which it acts", (0.4 * sign, 0.8 * sign), 2.0, -2.0, "o"),
+        Number("edge", "o", "value from which it acts", edges, 2.0, -2.0, "o"),
     )
     formula = f"a * max({distance}, 0 * o)"
     return Law(

@@ -7,10 +7,12 @@ from pathlib import Path
 import pytest
 
 from cosim.scenario import parse_scenario
+from cosim.unit.protocol import Array
 from diagnosis.laws.law import Law
 from diagnosis.laws.library import library
 from diagnosis.models.systems.fast import FastSystem
-from diagnosis.models.systems.places import fits, places_of
+from diagnosis.models.systems.places import Fit, fits, places_of
+from diagnosis.models.systems.quantities import Places
 from evaluation.fmus.model import OdeModel
 
 #: Two masses, an unbalanced wheel with a load on its bearing, two lumps, two tanks, a coil, a capacitor.
@@ -69,7 +71,8 @@ INPUTS = {
 }
 
 
-def _tried(folder: Path, integrator: str) -> set[str]:
+def _fitted(folder: Path, integrator: str) -> list[tuple[Fit, Places, dict[str, Array]]]:
+    """Laws that are tried, with the quantities and what they are simulated as."""
     outputs = ", ".join(
         f"{name}: {{unit: {unit}, points: [[0 s, {first} {unit}], [4 s, {then} {unit}]]}}"
         for name, (unit, first, then) in INPUTS.items()
@@ -82,22 +85,52 @@ def _tried(folder: Path, integrator: str) -> set[str]:
     )
     system = FastSystem(parse_scenario(text, folder / "scenario.yaml"))
     try:
-        return {fit.law.identifier for fit in fits(places_of([system]), library(), 0.02)}
+        (own,) = places = places_of([system])
+        rows = system.simulate()
+        assert rows is not None
+        taken = {name.removeprefix("state "): rows.values[:, s] for (_, name), s in system.recorded.items()}
+        return [(fit, own, taken) for fit in fits(places, library(), 0.02)]
     finally:
         system.close()
 
 
 @pytest.fixture(scope="module")
-def tried(tmp_path_factory: pytest.TempPathFactory) -> set[str]:
-    """Laws that are tried where the FMU shows its states, and where it hides them."""
+def every(tmp_path_factory: pytest.TempPathFactory) -> list[tuple[Fit, Places, dict[str, Array]]]:
+    """Where the FMU shows its states, and where it hides them."""
     folder = tmp_path_factory.mktemp("rig")
     RIG.build(folder)
-    return _tried(folder, "cvode") | _tried(folder, "internal")
+    return _fitted(folder, "cvode") + _fitted(folder, "internal")
+
+
+@pytest.fixture(scope="module")
+def tried(every: list[tuple[Fit, Places, dict[str, Array]]]) -> set[str]:
+    """Laws that are tried."""
+    return {fit.law.identifier for fit, _, _ in every}
 
 
 @pytest.mark.parametrize("law", library(), ids=lambda law: law.identifier)
 def test_every_law_is_tried_somewhere(tried: set[str], law: Law) -> None:
     assert law.identifier in tried
+
+
+def test_a_search_begins_at_values_that_a_quantity_takes(every: list[tuple[Fit, Places, dict[str, Array]]]) -> None:
+    """A knot, a stop or a phase change where the quantity never is would change nothing, and no fit leaves it."""
+    asked = 0
+    for fit, own, taken in every:
+        outside = {
+            name: values
+            for name, values in taken.items()
+            if name in {*own.states, *own.outputs} and name in fit.term.law and values.shape[1] == 1
+        }
+        for parameter in fit.term.parameters:
+            if not parameter.is_reading or len(outside) != 1:
+                continue
+            (values,) = outside.values()
+            assert values.min() < min(parameter.starts) < max(parameter.starts) < values.max(), fit.term
+            assert parameter.lower <= values.min()
+            assert values.max() <= parameter.upper
+            asked += 1
+    assert asked > 20
 
 
 def test_what_a_law_is_confused_with_is_a_law() -> None:

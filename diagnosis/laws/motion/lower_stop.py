@@ -9,7 +9,7 @@ LAW = Law(
     formula="stop_stiffness * max(stop - x, 0 * x)",
     numbers=(
         Number("stop_stiffness", "rate/x", "acceleration per distance beyond the stop", (3.0, 30.0), 1e4),
-        Number("stop", "x", "position of the stop", (-0.4, -0.8), 2.0, -2.0, "x"),
+        Number("stop", "x", "position of the stop", (0.35, 0.2), 2.0, -2.0, "x"),
     ),
     source="Shaw and Holmes, Journal of Sound and Vibration 90 (1983) 129",
     confused_with={

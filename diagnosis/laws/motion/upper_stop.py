@@ -9,5 +9,5 @@ LAW = replace(
     identifier="upper_stop",
     name="elastic stop at the upper end",
     formula="-stop_stiffness * max(x - stop, 0 * x)",
-    numbers=(LOWER.numbers[0], replace(LOWER.numbers[1], starts=(0.4, 0.8))),
+    numbers=(LOWER.numbers[0], replace(LOWER.numbers[1], starts=(0.65, 0.8))),
 )

@@ -172,13 +172,15 @@ def _quantities(
         rate = float(np.sqrt(np.mean([np.mean(s**2) for s in slopes]))) if slopes else 0.0
         size = size or max(abs(middle), 1.0)
         peak = max(float(np.max(np.abs(v - middle))) for v in values)
+        least, most = min(float(np.min(v)) for v in values), max(float(np.max(v)) for v in values)
         unit, stated = fmu.units[name], None
         if parse_unit(unit).dimensionality == parse_unit("K").dimensionality:
             stated = middle, size
             factor, offset = conversion(unit, "K")
             unit, size, rate, peak = "K", factor * size, factor * rate, factor * peak
-            middle = factor * middle + (0.0 if is_difference else offset)
-        found[name] = Quantity(name, unit, size, middle, rate or size / max(step * 100, 1e-9), stated, peak)
+            middle, least, most = (factor * v + (0.0 if is_difference else offset) for v in (middle, least, most))
+        rate = rate or size / max(step * 100, 1e-9)
+        found[name] = Quantity(name, unit, size, middle, rate, stated, peak, least, most)
     return found
 
 
@@ -194,7 +196,9 @@ def _apart(
         gaps = [{keys[0]: c[keys[0]] - c[keys[1]]} for c in courses]
         gap = _quantities(fmu, (one,), (keys[0],), gaps, step, is_difference=True)[one]
         found[one, other] = replace(gap, name=f"({one} - {other})")
-        found[other, one] = replace(gap, name=f"({other} - {one})", middle=-gap.middle)
+        found[other, one] = replace(
+            gap, name=f"({other} - {one})", middle=-gap.middle, least=-gap.most, most=-gap.least
+        )
     return found
 
 
@@ -521,15 +525,20 @@ def _parameter(
     number: Number, name: str, scale: _Scale, symbols: Mapping[str, Quantity], macro_step: float, is_held: bool
 ) -> TermParameter:
     size = scale.size(number.of)
-    middle = symbols[number.origin].middle if number.origin else 0.0
-    lower = -number.most if number.least is None else number.least
+    lower = size * (-number.most if number.least is None else number.least)
+    upper = size * number.most
+    starts = tuple(size * s for s in number.starts)
+    if number.origin:
+        quantity = symbols[number.origin]
+        starts = tuple(quantity.value_at(s) for s in number.starts)
+        lower = min(quantity.middle + lower, quantity.value_at(0.0))
+        upper = max(quantity.middle + upper, quantity.value_at(1.0))
     negligible = _negligible(number, scale, symbols, macro_step)
-    starts = tuple(middle + size * s for s in number.starts)
     return TermParameter(
         name,
         scale.unit(number.of),
-        middle + size * lower,
-        middle + size * number.most,
+        lower,
+        upper,
         starts,
         negligible=negligible,
         resolution=0.5 * negligible / math.sqrt(3.0) if is_held else 0.0,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 
@@ -17,6 +18,8 @@ class Quantity:
         rate: How fast it changes, per second.
         stated: Middle and size in the unit that the FMU states, where that is another one.
         peak: Farthest that it goes from its middle in the recordings, in `unit`; 0: not known.
+        least: Smallest value that it takes in the recordings, in `unit`.
+        most: Largest one; not above the smallest: not known, or it does not move.
     """
 
     name: str
@@ -26,6 +29,15 @@ class Quantity:
     rate: float
     stated: tuple[float, float] | None = None
     peak: float = 0.0
+    least: float = 0.0
+    most: float = 0.0
+
+    def value_at(self, share: float) -> float:
+        """Value at a share of the way from the least to the largest one, of a sine where these are not known."""
+        least, most = self.least, self.most
+        if not least < most:
+            least, most = self.middle - math.sqrt(2.0) * self.size, self.middle + math.sqrt(2.0) * self.size
+        return least + share * (most - least)
 
     @property
     def in_fmu(self) -> tuple[float, float]:
