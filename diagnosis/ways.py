@@ -15,10 +15,15 @@ from diagnosis.faults.given import LawsOnly
 from diagnosis.model_error import laws_that_predict, pooled, refitted
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, QuasiLikelihoodModel, inflation
-from diagnosis.search.complete import MOST, MOST_SLOW, completed
+from diagnosis.search.complete import MOST, MOST_SLOW, TRIED, completed
+from diagnosis.search.explanation import Explanation
 from diagnosis.search.problem import Term
 from diagnosis.search.search import Outcome, Settings, search, shrink
 from diagnosis.search.structure import structure
+
+#: Generic terms in the place of all laws that were found, as a shape that no law has rises and falls; and best-scored
+#: ones that are fitted for each: what a straight line promises of knots far from where they belong says little.
+FEW, FITTED = 2, 16
 
 
 def other_ways(
@@ -30,7 +35,8 @@ def other_ways(
        where something of one recording was among them (a fault, an event), those that are found without such.
     2. Where such was found though the model errs by more than noise: the same laws by how well they predict stretches
        that they were not fitted to. A fault that fills a gap takes what laws would explain.
-    3. The same with a sum of generic terms for what they leave (`diagnosis.search.complete`).
+    3. One or two generic terms in the place of all laws that were found: laws that bend towards a missing one hide it.
+    4. Those of the first way with a sum of generic terms for what they leave (`diagnosis.search.complete`).
 
     Args:
         model: Model of the training recordings with the noise of the sensors, as it was searched.
@@ -40,9 +46,9 @@ def other_ways(
     """
     laws = LawsOnly(model)
     terms = [t for t in model.terms() if _holds_always(model, t)]
-    known = set(terms)
+    lasting = set(terms)
     first = outcome.first or outcome
-    is_of_training = any(t not in known for e in (outcome.best, first.best) for t in e.terms)
+    is_of_training = any(t not in lasting for e in (outcome.best, first.best) for t in e.terms)
     if is_of_training:
         on_progress("searching laws that hold in all recordings alone")
         first = search(laws, terms, settings, model.groups(), on_progress)
@@ -52,14 +58,17 @@ def other_ways(
         if is_of_training and outcome.first is not None and errs is not laws:
             predicting, errs = laws_that_predict(laws, first, terms, settings, on_progress)
             yield replace(predicting, first=first), errs
-    if first.left.is_noise:
-        return
-    most = MOST if model.is_fast else MOST_SLOW
-    whole = completed(laws, first.best, terms, settings, first.margin, on_progress, most)
-    whole = shrink(laws, whole, first.margin)
-    if set(whole.terms) != set(first.best.terms):
-        left = structure(whole.fit.residuals, model.layout, model.groups())
-        yield _honest(laws, replace(first, best=whole, left=left, rivals=(whole, *first.rivals)))
+    known = [set(first.best.terms)]
+    begins = [(Explanation(first.base), FEW, FITTED)] if first.best.terms else []
+    if not first.left.is_noise:
+        begins.append((first.best, MOST if model.is_fast else MOST_SLOW, TRIED))
+    for begin, most, tried in begins:
+        whole = completed(laws, begin, terms, settings, first.margin, on_progress, most, tried)
+        whole = shrink(laws, whole, first.margin)
+        if set(whole.terms) not in known:
+            known.append(set(whole.terms))
+            left = structure(whole.fit.residuals, model.layout, model.groups())
+            yield _honest(laws, replace(first, best=whole, left=left, rivals=(whole, *first.rivals)))
 
 
 def _holds_always(model: DiagnosisModel, term: Term) -> bool:

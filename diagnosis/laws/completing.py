@@ -2,8 +2,9 @@
 
 The laws without a name of `diagnosis.laws.library` are few, so that one of them can be told from a law with a name.
 Where everything that was tried leaves more than noise, a sum of terms of one systematic basis describes what is left:
-at every rate and input each quantity through a piecewise linear function with two free knots, constant outside them, so
-that it does not run away beyond what was recorded; and the same behind a first-order delay. What depends on the course
+at every rate and input, and in every parameter, each quantity through a piecewise linear function with two free knots,
+constant outside them, so that it does not run away beyond what was recorded; at rates and inputs the same behind a
+first-order delay. What depends on the course
 and not on time is the elastoplastic (stop) operator of each quantity: it follows a turn over a width, then stays.
 Products of two quantities are laws of the library already. Coil networks have the same basis but for hysteresis
 (`diagnosis.candidates.unnamed_completing`).
@@ -56,8 +57,7 @@ def completing() -> Iterator[Law]:
         symbol, target, words = _OF[role]
         ramp = f"min(max(({symbol} - onset) / width, 0), 1)"
         strength = Number("a", target, "strength", (0.1, -0.1), 1000.0, None)
-        onset = Number("onset", symbol, "value at which it sets in", _ONSETS, _FARTHEST, -_FARTHEST, symbol)
-        width = Number("width", symbol, "over which it rises to its full size", (_WIDTH,), 2 * _FARTHEST, 0.02)
+        onset, width = _onset(symbol), _width(symbol)
         yield Law(
             f"{prefix}_spline",
             f"piecewise linear function of {words}",
@@ -81,6 +81,31 @@ def completing() -> Iterator[Law]:
             is_completing=True,
         )
         yield _hysteresis(role, prefix, symbol, words, strength)
+    yield _spline_of_a_parameter()
+
+
+def _spline_of_a_parameter() -> Law:
+    """A parameter that is another one beyond a value of a quantity; what is left of it is more than nothing."""
+    share = Number("a", "o/o", "change over the parameter's value", (0.3, -0.3), 10.0, -0.95)
+    return Law(
+        "parameter_spline",
+        "parameter that is a piecewise linear function of a quantity",
+        Role.PARAMETER,
+        "a * min(max((o - onset) / width, 0), 1)",
+        (share, _onset("o"), _width("o")),
+        _SOURCE,
+        is_named=False,
+        is_completing=True,
+        is_share=True,
+    )
+
+
+def _onset(symbol: str) -> Number:
+    return Number("onset", symbol, "value at which it sets in", _ONSETS, _FARTHEST, -_FARTHEST, symbol)
+
+
+def _width(symbol: str) -> Number:
+    return Number("width", symbol, "over which it rises to its full size", (_WIDTH,), 2 * _FARTHEST, 0.02)
 
 
 def _hysteresis(role: Role, prefix: str, symbol: str, words: str, strength: Number) -> Law:

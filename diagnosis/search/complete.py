@@ -35,6 +35,7 @@ def completed(
     margin: float,
     on_progress: Callable[[str], None] = lambda text: None,
     most: int = MOST,
+    tried: int = TRIED,
 ) -> Explanation:
     """The explanation with generic terms beside it, as many as gain the margin each.
 
@@ -46,6 +47,7 @@ def completed(
         margin: Gain that a term must exceed.
         on_progress: Told what is being done.
         most: Terms that are added at most.
+        tried: Best-scored ones that are fitted for each.
     """
     current = explanation
     generic = [t for t in terms if not t.is_named]
@@ -54,7 +56,7 @@ def completed(
         on_progress(f"describing what is left by generic terms: {number + 1}")
         ranked = _scored(model, current.fit, pool, settings)
         pool = [s.term for s in ranked[:QUEUED]]
-        hopeful = [s for s in ranked if s.gain > HOPEFUL * margin][:TRIED]
+        hopeful = [s for s in ranked if s.gain > HOPEFUL * margin][:tried]
         trials = [fitted_with(model, current.fit, s) for s in counted(hopeful, "generic terms fitted")]
         if not trials:
             break

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from diagnosis.model_error import search_with_model_error
@@ -48,3 +49,21 @@ def test_where_a_fault_was_found_and_the_model_errs_laws_alone_are_validated_too
     if errs:
         assert set(validated[0].best.terms) <= {BEND, WAVE, LID}
         assert BEND in validated[0].best.terms
+
+
+def test_where_laws_meet_the_training_one_generic_term_alone_is_asked_for_too() -> None:
+    """A wave that the search took for a bend and a lid: what meets readings in training may be refuted by others."""
+    model = Whole(0.3 + 0.5 * TIME + 0.6 * np.sin(25.0 * TIME), seed=2)
+    outcome, _ = search_with_model_error(model, Settings())
+    assert set(outcome.best.terms) == {WAVE}
+    assert outcome.left.is_noise
+    bent = Explanation(fit(model, outcome.base.point.plus(BEND, (0.5,))))
+    given = replace(outcome, best=bent, rivals=(bent,))
+    assert [set(way.best.terms) for way, _ in other_ways(model, given, Settings())] == [{WAVE}]
+
+
+def test_where_nothing_was_found_and_noise_is_left_there_is_no_other_way() -> None:
+    model = Whole(0.3 + 0.5 * TIME, seed=3)
+    outcome, _ = search_with_model_error(model, Settings())
+    assert not outcome.best.terms
+    assert not list(other_ways(model, outcome, Settings()))
