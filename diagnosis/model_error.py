@@ -11,10 +11,11 @@ import numpy as np
 
 from cosim.compute.steps import TimeIsOver, counted, may_be_left
 from cosim.unit.protocol import Array
-from diagnosis.faults.given import GivenFaults, LawsOnly, faults_of
+from diagnosis.faults.given import GivenFaults, LawsOnly, faults_of, lasting_laws
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.masked import MaskedModel
 from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, QuasiLikelihoodModel, inflation
+from diagnosis.search.complete import by_few_terms
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.grow import grow, polished
 from diagnosis.search.objective import bounded
@@ -43,9 +44,10 @@ def search_with_model_error(
 ) -> tuple[Outcome, DiagnosisModel]:
     """Search; where even the model that is found is wrong by more than noise, search again with larger errors.
 
-    The readings of a real rig are met far worse than their noise. Then the likelihood is tempered by what the most
-    general model leaves, and terms are chosen by how well they predict stretches of the training that they were not
-    fitted to. Where noise is all that is left, nothing of this happens.
+    One or two generic terms in the place of all that was found may be what is missing (`by_few_terms`). Else the
+    readings of a real rig are met far worse than their noise: the likelihood is tempered by what the most general model
+    leaves, and terms are chosen by how well they predict stretches of the training that they were not fitted to. Where
+    noise is all that is left, nothing of this happens.
 
     Args:
         model: Model and training recordings.
@@ -61,10 +63,26 @@ def search_with_model_error(
         return outcome, model
     try:
         with may_be_left():
+            few = _by_few_terms(model, outcome, settings, on_progress)
+            if few is not None:
+                return few, model
             return _searched_again(model, outcome, factor, settings, on_progress)
     except TimeIsOver:  # what was found stands, with errors as large as it leaves
         found = QuasiLikelihoodModel(LawsOnly(model), factor)
         return replace(refitted(found, outcome), first=outcome), found
+
+
+def _by_few_terms(
+    model: DiagnosisModel, outcome: Outcome, settings: Settings, on_progress: Callable[[str], None]
+) -> Outcome | None:
+    """The outcome with one or two terms alone, where these leave noise; None where they do not."""
+    if not model.can_be_searched_again:
+        return None
+    few = by_few_terms(LawsOnly(model), outcome.base, lasting_laws(model), settings, outcome.margin, on_progress)
+    if pooled(inflation(few.fit.residuals, model.layout), model.layout).max() > BELIEVED:
+        return None
+    left = structure(few.fit.residuals, model.layout, model.groups())
+    return replace(outcome, best=few, left=left, rivals=tuple(_once((few, *outcome.rivals))))
 
 
 def _searched_again(

@@ -8,22 +8,18 @@ asked about others too.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
-from diagnosis.faults.given import LawsOnly
+from diagnosis.faults.given import LawsOnly, lasting_laws
 from diagnosis.model_error import laws_that_predict, pooled, refitted
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, QuasiLikelihoodModel, inflation
-from diagnosis.search.complete import MOST, MOST_SLOW, TRIED, completed
+from diagnosis.search.complete import MOST, MOST_SLOW, by_few_terms, completed
 from diagnosis.search.explanation import Explanation
 from diagnosis.search.problem import Term
 from diagnosis.search.search import Outcome, Settings, search, shrink
 from diagnosis.search.structure import structure
-
-#: Generic terms in the place of all laws that were found, as a shape that no law has rises and falls; and best-scored
-#: ones that are fitted for each: what a straight line promises of knots far from where they belong says little.
-FEW, FITTED = 2, 16
 
 
 def other_ways(
@@ -45,7 +41,7 @@ def other_ways(
         on_progress: Told what is being done.
     """
     laws = LawsOnly(model)
-    terms = [t for t in model.terms() if _holds_always(model, t)]
+    terms = lasting_laws(model)
     lasting = set(terms)
     first = outcome.first or outcome
     is_of_training = any(t not in lasting for e in (outcome.best, first.best) for t in e.terms)
@@ -59,23 +55,27 @@ def other_ways(
             predicting, errs = laws_that_predict(laws, first, terms, settings, on_progress)
             yield replace(predicting, first=first), errs
     known = [set(first.best.terms)]
-    begins = [(Explanation(first.base), FEW, FITTED)] if first.best.terms else []
-    if not first.left.is_noise:
-        begins.append((first.best, MOST if model.is_fast else MOST_SLOW, TRIED))
-    for begin, most, tried in begins:
-        whole = completed(laws, begin, terms, settings, first.margin, on_progress, most, tried)
-        whole = shrink(laws, whole, first.margin)
+    for whole in _by_generic_terms(laws, first, terms, settings, on_progress):
         if set(whole.terms) not in known:
             known.append(set(whole.terms))
             left = structure(whole.fit.residuals, model.layout, model.groups())
             yield _honest(laws, replace(first, best=whole, left=left, rivals=(whole, *first.rivals)))
 
 
-def _holds_always(model: DiagnosisModel, term: Term) -> bool:
-    """Whether a term is there in every recording from its begin to its end, so that any of them can show it."""
-    if term.recording is not None or any(p.is_instant for p in term.parameters):
-        return False
-    return model.where(term)[1].day is None
+def _by_generic_terms(
+    laws: DiagnosisModel,
+    first: Outcome,
+    terms: Sequence[Term],
+    settings: Settings,
+    on_progress: Callable[[str], None],
+) -> Iterator[Explanation]:
+    """Explanations with generic terms in the place of what was found, and beside it."""
+    if first.best.terms:
+        yield by_few_terms(laws, first.base, terms, settings, first.margin, on_progress)
+    if not first.left.is_noise:
+        most = MOST if laws.is_fast else MOST_SLOW
+        whole = completed(laws, first.best, terms, settings, first.margin, on_progress, most)
+        yield shrink(laws, whole, first.margin)
 
 
 def _honest(model: DiagnosisModel, outcome: Outcome) -> tuple[Outcome, DiagnosisModel]:

@@ -39,6 +39,15 @@ class GivenFaults(LawsOnly):
         return Point(point.base, {**point.terms, **self.given})
 
 
+def lasting_laws(model: DiagnosisModel) -> list[Term]:
+    """Terms that are there in every recording from its begin to its end, so that any of them can show them."""
+    return [
+        t
+        for t in model.terms()
+        if t.recording is None and not any(p.is_instant for p in t.parameters) and model.where(t)[1].day is None
+    ]
+
+
 def faults_of(point: Point) -> dict[Term, tuple[float, ...]]:
     """The faults of a point, which belong to one recording each."""
     return {t: v for t, v in point.terms.items() if t.recording is not None}

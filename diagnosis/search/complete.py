@@ -18,6 +18,7 @@ from diagnosis.search.focus import focus
 from diagnosis.search.grow import HOPEFUL, PLACES, STEPS, fitted_with
 from diagnosis.search.problem import Model, Term
 from diagnosis.search.score import Projection, Score, score
+from diagnosis.search.search import shrink
 
 #: Terms that are added at most, where a simulation takes milliseconds and where it takes longer, and best-scored ones
 #: that are fitted for each.
@@ -25,6 +26,33 @@ MOST, MOST_SLOW, TRIED = 8, 4, 3
 #: Terms that stay in the queue, those that promised most before (J. H. Friedman, Fast MARS, Stanford University,
 #: Department of Statistics, Technical Report 110, 1993, section 3).
 QUEUED = 80
+#: Terms in the place of all laws, as a shape that no law has rises and falls; and best-scored ones that are fitted for
+#: each: what a straight line promises of knots far from where they belong says little.
+FEW, FITTED = 2, 16
+
+
+def by_few_terms(
+    model: Model,
+    base: Fit,
+    terms: Sequence[Term],
+    settings: Settings,
+    margin: float,
+    on_progress: Callable[[str], None] = lambda text: None,
+) -> Explanation:
+    """One or two terms, generic ones among them, in the place of all laws that were found.
+
+    Laws that bend towards a missing one hide it: what they leave has not its shape any more.
+
+    Args:
+        model: Model and training recordings.
+        base: The recalibrated model.
+        terms: Laws that hold in all recordings.
+        settings: Of the search.
+        margin: Gain that a term must exceed.
+        on_progress: Told what is being done.
+    """
+    start = Explanation(base)
+    return shrink(model, completed(model, start, terms, settings, margin, on_progress, FEW, FITTED, terms), margin)
 
 
 def completed(
@@ -36,28 +64,30 @@ def completed(
     on_progress: Callable[[str], None] = lambda text: None,
     most: int = MOST,
     tried: int = TRIED,
+    added: Sequence[Term] | None = None,
 ) -> Explanation:
     """The explanation with generic terms beside it, as many as gain the margin each.
 
     Args:
         model: Model and training recordings.
         explanation: Best so far; it leaves more than noise.
-        terms: Generic ones are added; the others single out places.
+        terms: Laws and generic terms, which single out places.
         settings: Of the search.
         margin: Gain that a term must exceed.
         on_progress: Told what is being done.
         most: Terms that are added at most.
         tried: Best-scored ones that are fitted for each.
+        added: Those of the terms that may be added; None: generic ones.
     """
     current = explanation
-    generic = [t for t in terms if not t.is_named]
-    pool = _at_places(model, current.fit, terms, generic, settings) if generic else []
+    added = [t for t in terms if not t.is_named] if added is None else added
+    pool = _at_places(model, current.fit, terms, added, settings) if added else []
     for number in range(most if pool else 0):
         on_progress(f"describing what is left by generic terms: {number + 1}")
         ranked = _scored(model, current.fit, pool, settings)
         pool = [s.term for s in ranked[:QUEUED]]
         hopeful = [s for s in ranked if s.gain > HOPEFUL * margin][:tried]
-        trials = [fitted_with(model, current.fit, s) for s in counted(hopeful, "generic terms fitted")]
+        trials = [fitted_with(model, current.fit, s) for s in counted(hopeful, "terms fitted")]
         if not trials:
             break
         trial = min(trials, key=lambda f: f.cost)
@@ -75,12 +105,10 @@ def _scored(model: Model, base: Fit, terms: Sequence[Term], settings: Settings) 
     return score(model, base, terms, projection=projection).ranked
 
 
-def _at_places(
-    model: Model, base: Fit, terms: Sequence[Term], generic: Sequence[Term], settings: Settings
-) -> list[Term]:
-    """Generic terms at the places at which something scores best, and at those that hold all elements."""
+def _at_places(model: Model, base: Fit, terms: Sequence[Term], added: Sequence[Term], settings: Settings) -> list[Term]:
+    """Terms that may be added at the places at which something scores best, and at those that hold all elements."""
     near = [t for t in focus(model, base.residuals, terms) if not t.is_completing]
     ranked = _scored(model, base, near, settings)
     places = list(dict.fromkeys(s.term.place for s in ranked[:40]))[:PLACES]
     places += [t.place for t in base.point.terms]
-    return [t for t in generic if t.place in places or t.place.startswith("all ")]
+    return [t for t in added if t.place in places or t.place.startswith("all ")]

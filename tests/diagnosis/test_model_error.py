@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,7 +18,7 @@ from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParamet
 from diagnosis.search.search import Explanation, Outcome, Settings, search
 from diagnosis.search.structure import structure
 from diagnosis.search.validation import BLOCKS, Validated, Validation, blocks, chosen
-from tests.search.line_model import BEND, TERMS, TIME, WAVE, LineModel
+from tests.search.line_model import BEND, LID, STEP, TERMS, TIME, WAVE, LineModel
 from tests.verdict.lines import Law
 
 TIMES = np.linspace(0.0, 10.0, 200)
@@ -133,6 +134,7 @@ class Rig(LineModel):
 
     runs = (SimpleNamespace(series=()),)
     simulations = 0
+    can_be_searched_again = True
 
     def terms(self) -> list[Term]:
         return list(TERMS)
@@ -142,6 +144,9 @@ class Rig(LineModel):
 
     def where(self, found: Term) -> tuple[Law, Labelled]:
         return Law(found.identifier, found.law, {}), Labelled(found.place)
+
+    def shows_in(self, term: Term) -> None:
+        """In every channel."""
 
 
 def test_of_many_channels_what_the_search_found_is_weighed_and_not_searched_again(
@@ -160,6 +165,37 @@ def test_of_many_channels_what_the_search_found_is_weighed_and_not_searched_agai
     # The same term against errors as large as they are: worth a tenth of what noise alone would make of it.
     assert outcome.margin < outcome.best.gains[BEND] < 0.1 * first.best.gains[BEND]
     assert sum(text.startswith("looking for a first effect") for text in said) == 1
+
+
+RIPPLE = replace(WAVE, identifier="ripple", is_completing=True)
+
+
+class Rippled(Rig):
+    """A wave is one of the terms that complete, which no search of laws tries."""
+
+    def terms(self) -> list[Term]:
+        return [BEND, STEP, LID, RIPPLE]
+
+    def signal(self, point: Point) -> np.ndarray:
+        return super().signal(Point(point.base, {WAVE if t == RIPPLE else t: v for t, v in point.terms.items()}))
+
+
+def test_one_generic_term_that_leaves_noise_stands_in_the_place_of_all_laws_that_do_not() -> None:
+    rig = Rippled(0.3 + 0.5 * TIME + 0.6 * np.sin(25.0 * TIME), seed=1)
+    said: list[str] = []
+    outcome, model = search_with_model_error(rig, Settings(), said.append)
+    assert model is rig
+    assert list(outcome.best.terms) == [RIPPLE]
+    assert outcome.best.fit.point.terms[RIPPLE][0] == pytest.approx(0.6, abs=0.03)
+    assert outcome.left.is_noise
+    assert sum(text.startswith("looking for a first effect") for text in said) == 1
+
+
+def test_where_one_or_two_terms_leave_more_than_noise_they_are_not_taken() -> None:
+    rig = Rippled(0.3 + 0.5 * TIME + 0.6 * np.sin(25.0 * TIME) + 0.6 * (TIME * 4.5 % 1.0), seed=1)
+    outcome, model = search_with_model_error(rig, Settings())
+    assert isinstance(model, QuasiLikelihoodModel)
+    assert RIPPLE not in outcome.best.terms
 
 
 class Waves(Curves):

@@ -11,7 +11,6 @@ from diagnosis.model_error import search_with_model_error
 from diagnosis.models.protocol import ModelBase
 from diagnosis.models.wrappers.quasi_likelihood import QuasiLikelihoodModel
 from diagnosis.search.fit import fit
-from diagnosis.search.problem import Term
 from diagnosis.search.search import Explanation, Outcome, Settings
 from diagnosis.ways import other_ways
 from tests.diagnosis.test_model_error import Rig
@@ -20,9 +19,6 @@ from tests.search.line_model import BEND, LID, STEP, TIME, WAVE
 
 class Whole(Rig, ModelBase):
     """With what other ways ask of a model."""
-
-    def shows_in(self, term: Term) -> None:
-        """In every channel."""
 
 
 def with_fault(model: Rig, outcome: Outcome) -> Outcome:
