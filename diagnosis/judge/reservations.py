@@ -90,8 +90,14 @@ def dragged(far: tuple[Parameter, float], titles: Sequence[str]) -> str:
 
 
 def much_left(accepted: Accepted) -> str:
+    """Why a law has no name that leaves much of the squared mismatch, or makes it larger."""
     left, recalibrated = accepted.agreement, accepted.agreement_recalibrated
     share = 100.0 * left.excess / recalibrated.excess if recalibrated.excess > 0.0 else 100.0
+    if share >= 100.5:  # it would round to more than all of it
+        return (
+            f"the squared mismatch in the {accepted.basis} is {share / 100.0:.2g} times what recalibration leaves of "
+            "it, so no name is certain"
+        )
     return (
         f"{share:.0f} % of the squared mismatch that recalibration leaves in the {accepted.basis} is still "
         "unexplained, so no name is certain"
