@@ -51,8 +51,9 @@ def by_few_terms(
         margin: Gain that a term must exceed.
         on_progress: Told what is being done.
     """
-    start = Explanation(base)
-    return shrink(model, completed(model, start, terms, settings, margin, on_progress, FEW, FITTED, terms), margin)
+    pool = _at_places(model, base, terms, terms, settings)
+    said = _told(on_progress, "trying one or two terms alone")
+    return shrink(model, _with_more(model, Explanation(base), pool, settings, margin, said, (FEW, FITTED)), margin)
 
 
 def completed(
@@ -63,31 +64,41 @@ def completed(
     margin: float,
     on_progress: Callable[[str], None] = lambda text: None,
     most: int = MOST,
-    tried: int = TRIED,
-    added: Sequence[Term] | None = None,
 ) -> Explanation:
     """The explanation with generic terms beside it, as many as gain the margin each.
 
     Args:
         model: Model and training recordings.
         explanation: Best so far; it leaves more than noise.
-        terms: Laws and generic terms, which single out places.
+        terms: Generic ones are added; the others single out places.
         settings: Of the search.
         margin: Gain that a term must exceed.
         on_progress: Told what is being done.
         most: Terms that are added at most.
-        tried: Best-scored ones that are fitted for each.
-        added: Those of the terms that may be added; None: generic ones.
     """
-    current = explanation
-    added = [t for t in terms if not t.is_named] if added is None else added
-    pool = _at_places(model, current.fit, terms, added, settings) if added else []
+    generic = [t for t in terms if not t.is_named]
+    pool = _at_places(model, explanation.fit, terms, generic, settings) if generic else []
+    said = _told(on_progress, "describing what is left by generic terms")
+    return _with_more(model, explanation, pool, settings, margin, said, (most, TRIED))
+
+
+def _with_more(
+    model: Model,
+    explanation: Explanation,
+    pool: Sequence[Term],
+    settings: Settings,
+    margin: float,
+    on_progress: Callable[[int], None],
+    breadth: tuple[int, int],
+) -> Explanation:
+    """The explanation with terms of a pool, forwards; `breadth`: how many at most, and how many are fitted for each."""
+    current, (most, tried) = explanation, breadth
     for number in range(most if pool else 0):
-        on_progress(f"describing what is left by generic terms: {number + 1}")
+        on_progress(number)
         ranked = _scored(model, current.fit, pool, settings)
         pool = [s.term for s in ranked[:QUEUED]]
         hopeful = [s for s in ranked if s.gain > HOPEFUL * margin][:tried]
-        trials = [fitted_with(model, current.fit, s) for s in counted(hopeful, "terms fitted")]
+        trials = [fitted_with(model, current.fit, s) for s in counted(hopeful, "generic terms fitted")]
         if not trials:
             break
         trial = min(trials, key=lambda f: f.cost)
@@ -96,6 +107,11 @@ def completed(
             break
         current = grown
     return Explanation(fit(model, current.fit.point, widths=explanation.fit.widths))
+
+
+def _told(on_progress: Callable[[str], None], what: str) -> Callable[[int], None]:
+    """Tells the stage and which term it is at, counted from 1."""
+    return lambda number: on_progress(f"{what}: {number + 1}")
 
 
 def _scored(model: Model, base: Fit, terms: Sequence[Term], settings: Settings) -> list[Score]:
