@@ -62,12 +62,17 @@ def export_command(
         bool, typer.Option("--only-fmus", help="Leave out what is no FMU, for tools that know FMUs alone.")
     ] = False,
     changes: Changes = None,
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace the file that is there.")] = False,
 ) -> None:
     """Export a scenario as an SSP."""
     from cosim.ssp.export import export_ssp  # late: `--help` must not load Bullet
 
     if out.suffix.lower() != ".ssp":
         raise InputError("--out", "", f"`{out}` does not end in .ssp", "give a file name that ends in .ssp")
+    if out.is_file() and not overwrite:
+        raise InputError(
+            out, "", "it exists already", "replace it with `--overwrite`, or give another name with `--out`"
+        )
     number: Version = "1.0" if version == "1" else "2.0"
     _print_notes(export_ssp(load_scenario(scenario, changes or ()), out, number, only_fmus))
     print(out)

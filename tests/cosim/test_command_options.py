@@ -113,6 +113,15 @@ def test_a_run_is_replaced_only_on_demand_and_only_its_own_files(cosim, tmp_path
     assert not (out / "figures" / "old.png").exists()
 
 
+@pytest.mark.parametrize("words", [("--out", ""), ("--out=",), ("--csv", "--out", "")])
+def test_an_option_without_a_value_writes_nothing_into_the_working_folder(cosim, tmp_path, monkeypatch, words):
+    monkeypatch.chdir(tmp_path)
+    answer = cosim("run", COIL, *SHORT, *words)
+    assert answer.code == 2
+    assert "--out: its value is empty" in answer.err
+    assert not list(tmp_path.iterdir())
+
+
 @pytest.mark.parametrize("option", [("--set", "time.stop=1 s"), ("--overwrite",)])
 def test_a_run_that_goes_on_stays_as_it_is(cosim, tmp_path, option):
     answer = cosim("run", COIL, "--out", tmp_path, "--resume", *option)

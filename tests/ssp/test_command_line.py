@@ -44,6 +44,20 @@ def test_export_validate_and_run(cosim, tmp_path, monkeypatch):
         assert a.equals(b)
 
 
+def test_a_package_that_is_there_is_replaced_where_that_is_said(cosim, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "heating.yaml").write_text(heating().to_yaml())
+    package = tmp_path / "heating.ssp"
+    package.write_text("somebody's work")
+    code, out, err = cosim("ssp", "export", "heating.yaml", "--out", "heating.ssp")
+    assert (code, out) == (2, "")
+    assert "heating.ssp: it exists already" in err
+    assert "--overwrite" in err
+    assert package.read_text() == "somebody's work"
+    assert cosim("ssp", "export", "heating.yaml", "--out", "heating.ssp", "--overwrite")[0] == 0
+    assert package.read_bytes()[:2] == b"PK"
+
+
 def test_import_takes_the_step_that_ssp_does_not_hold(cosim, ssp, tmp_path):
     code, _, err = cosim("ssp", "import", ssp, "--out", tmp_path / "in")
     assert code == 2
