@@ -89,6 +89,8 @@ def _noise(compared: Compared, beside: Beside) -> list[Doubt]:
     """Stated noise against the scatter between neighbours: chi-square of their differences.
 
     Readings that repeat a value, of a sensor that stands still or is at an end of its range, say nothing of its noise.
+    Deviations of single readings hold what neighbours share (a marker at rest has the same error in all pictures), so
+    that less scatter is no doubt of them.
     """
     channel = beside.channel
     if not channel.is_deviation_given or len(channel.values) < 32:
@@ -100,6 +102,8 @@ def _noise(compared: Compared, beside: Beside) -> list[Doubt]:
     tail = LEVEL / len(compared.channels)
     least, most = chi_square_beyond(1.0 - tail, degrees), chi_square_beyond(tail, degrees)
     is_small = degrees * (ratio * HONEST) ** 2 < least
+    if is_small and channel.is_of_each_reading:
+        return []
     moving = ~repeated(channel.values)
     if is_small and not moving.all():
         count = int(np.count_nonzero(moving))

@@ -62,6 +62,8 @@ class Channel:
             simulated time), with their number; `diagnosis.recording.usage` puts it into words.
         later: How much `times` were moved, to compare readings with the output after a change of an input [s].
         scatter: Part of `deviation` by which the simulation scatters by itself (contacts), SI; it is not white.
+        is_of_each_reading: Whether the deviation was given for each reading, as a camera's tracks have it: it may hold
+            what neighbours share.
     """
 
     name: str
@@ -79,6 +81,7 @@ class Channel:
     dropped: Mapping[str, int] = field(default_factory=dict)
     later: float = 0.0
     scatter: float = 0.0
+    is_of_each_reading: bool = False
 
     @property
     def unit(self) -> str:
@@ -356,6 +359,7 @@ class _Reader:
             self._difference(entry.bias_bound, unit, f"{key}.bias_bound"),
             _at_limit(values, limits, quantum),
             dropped,
+            is_of_each_reading=own is not None,
         )
 
     def _own_noise(self, entry: ChannelEntry, key: str) -> Array | None:

@@ -214,6 +214,21 @@ def test_noise_as_stated(scenario: Scenario, tmp_path: Path, stated: str, word: 
     assert all(word in d.statement and not d.is_serious for d in found)
 
 
+@pytest.mark.parametrize(("stated", "words"), [(0.008, {"times more"}), (0.8, set())])
+def test_noise_of_each_reading_may_hold_what_neighbours_share(
+    scenario: Scenario, tmp_path: Path, stated: float, words: set[str]
+) -> None:
+    """A camera's marker at rest has the same error in all pictures: too little scatter is no doubt, too much is."""
+    folder = rig.write(tmp_path / "a", rig.FIRST, rig.readings(rig.FIRST))
+    table, sidecar = folder / "data.csv", folder / "recording.yaml"
+    lines = table.read_text().splitlines()
+    table.write_text("\n".join([f"{lines[0]},own", *(f"{line},{stated}" for line in lines[1:])]) + "\n")
+    sidecar.write_text(sidecar.read_text().replace(f"noise: {rig.NOISE} K", "noise_column: own"))
+    found = [d.statement for d in doubts(scenario, folder) if d.kind == "noise"]
+    assert len(found) == 2 * len(words)
+    assert all(word in statement for word in words for statement in found)
+
+
 def test_start_of_one_coil(scenario: Scenario, tmp_path: Path) -> None:
     values = rig.readings(rig.FIRST)
     values[:, 1] += 3.0
