@@ -25,7 +25,7 @@ def call(monkeypatch, capsys, *arguments):
     return left.value.code, capsys.readouterr().err
 
 
-@pytest.mark.parametrize("address", ["nonsense", "", "tcp://127.0.0.1", "http://x:1", "tcp://a:70000", "tcp://:8786"])
+@pytest.mark.parametrize("address", ["nonsense", " ", "tcp://127.0.0.1", "http://x:1", "tcp://a:70000", "tcp://:8786"])
 @pytest.mark.parametrize(("command", "file"), [("sweep", SWEEP), ("design", DESIGN)])
 def test_what_is_no_address_is_refused(monkeypatch, capsys, tmp_path, command, file, address):
     """`nonsense` was a traceback of Dask, and the folder then held a sweep that was never begun."""
