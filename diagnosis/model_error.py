@@ -63,26 +63,25 @@ def search_with_model_error(
         return outcome, model
     try:
         with may_be_left():
-            few = _by_few_terms(model, outcome, settings, on_progress)
-            if few is not None:
-                return few, model
+            if model.can_be_searched_again:
+                outcome = _with_few_terms(model, outcome, settings, on_progress)
+                if outcome.best is outcome.few:
+                    return outcome, model
             return _searched_again(model, outcome, factor, settings, on_progress)
     except TimeIsOver:  # what was found stands, with errors as large as it leaves
         found = QuasiLikelihoodModel(LawsOnly(model), factor)
         return replace(refitted(found, outcome), first=outcome), found
 
 
-def _by_few_terms(
+def _with_few_terms(
     model: DiagnosisModel, outcome: Outcome, settings: Settings, on_progress: Callable[[str], None]
-) -> Outcome | None:
-    """The outcome with one or two terms alone, where these leave noise; None where they do not."""
-    if not model.can_be_searched_again:
-        return None
+) -> Outcome:
+    """The outcome with one or two terms alone, as the best explanation where these leave noise."""
     few = by_few_terms(LawsOnly(model), outcome.base, lasting_laws(model), settings, outcome.margin, on_progress)
     if pooled(inflation(few.fit.residuals, model.layout), model.layout).max() > BELIEVED:
-        return None
+        return replace(outcome, few=few)
     left = structure(few.fit.residuals, model.layout, model.groups())
-    return replace(outcome, best=few, left=left, rivals=tuple(_once((few, *outcome.rivals))))
+    return replace(outcome, best=few, left=left, rivals=tuple(_once((few, *outcome.rivals))), few=few)
 
 
 def _searched_again(

@@ -71,7 +71,7 @@ def _by_generic_terms(
 ) -> Iterator[Explanation]:
     """Explanations with generic terms in the place of what was found, and beside it."""
     if first.best.terms:
-        yield by_few_terms(laws, first.base, terms, settings, first.margin, on_progress)
+        yield first.few or by_few_terms(laws, first.base, terms, settings, first.margin, on_progress)
     if not first.left.is_noise:
         most = MOST if laws.is_fast else MOST_SLOW
         whole = completed(laws, first.best, terms, settings, first.margin, on_progress, most)

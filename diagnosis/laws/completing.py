@@ -4,10 +4,9 @@ The laws without a name of `diagnosis.laws.library` are few, so that one of them
 Where everything that was tried leaves more than noise, a sum of terms of one systematic basis describes what is left:
 at every rate and input, and in every parameter, each quantity through a piecewise linear function with two free knots,
 constant outside them, so that it does not run away beyond what was recorded; at rates and inputs the same behind a
-first-order delay. What depends on the course
-and not on time is the elastoplastic (stop) operator of each quantity: it follows a turn over a width, then stays.
-Products of two quantities are laws of the library already. Coil networks have the same basis but for hysteresis
-(`diagnosis.candidates.unnamed_completing`).
+first-order delay. What depends on the course and not on time is the elastoplastic (stop) operator of each quantity: it
+follows a turn over a width, then stays. Products of two quantities are laws of the library already. Coil networks have
+the same basis but for hysteresis (`diagnosis.candidates.unnamed_completing`).
 
 Source: D. L. B. Jupp, SIAM J. Numerical Analysis 15 (1978) 328-343 (splines with free knots); J. H. Friedman, Annals of
 Statistics 19 (1991) 1-67 (sums of such functions); K. S. Narendra and P. G. Gallman, IEEE Trans. Automatic Control 11
@@ -55,7 +54,7 @@ def completing() -> Iterator[Law]:
     """
     for role, prefix in ((Role.STATE, "rate"), (Role.PAIR, "coupling"), (Role.PORT, "port")):
         symbol, target, words = _OF[role]
-        ramp = f"min(max(({symbol} - onset) / width, 0), 1)"
+        ramp = _ramp(symbol)
         strength = Number("a", target, "strength", (0.1, -0.1), 1000.0, None)
         onset, width = _onset(symbol), _width(symbol)
         yield Law(
@@ -91,13 +90,18 @@ def _spline_of_a_parameter() -> Law:
         "parameter_spline",
         "parameter that is a piecewise linear function of a quantity",
         Role.PARAMETER,
-        "a * min(max((o - onset) / width, 0), 1)",
+        f"a * {_ramp('o')}",
         (share, _onset("o"), _width("o")),
         _SOURCE,
         is_named=False,
         is_completing=True,
         is_share=True,
     )
+
+
+def _ramp(symbol: str) -> str:
+    """0 below the first knot, 1 above the second one."""
+    return f"min(max(({symbol} - onset) / width, 0), 1)"
 
 
 def _onset(symbol: str) -> Number:

@@ -51,6 +51,7 @@ class Outcome:
         tried: Choices of terms and shapes that were simulated.
         nulls: Recordings without any effect that the search was run on.
         first: What was found before the errors of the model were taken into account, where that is another outcome.
+        few: One or two terms alone, where they were tried (`diagnosis.search.complete.by_few_terms`).
     """
 
     base: Fit
@@ -63,6 +64,7 @@ class Outcome:
     tried: int
     nulls: int = 0
     first: Outcome | None = None
+    few: Explanation | None = None
 
 
 OnProgress = Callable[[str], None]

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
 import yaml
 from scipy.integrate import solve_ivp
 
+from cosim.scenario import load_scenario
 from cosim.unit.protocol import Array
+from diagnosis.diagnose import Options, diagnose
+from diagnosis.judge.diagnosis import Diagnosis
+from diagnosis.recording.recording import Recording
+from diagnosis.search.search import Settings
 from evaluation.fmus.model import OdeModel
 
 OSCILLATOR = OdeModel(
@@ -124,20 +129,28 @@ def write_recording(
     return folder
 
 
+def built(model: OdeModel, scenario: str, folder: Path) -> Path:
+    """The FMU with a scenario of it; returns the file of the scenario."""
+    model.build(folder)
+    path = folder / "scenario.yaml"
+    path.write_text(scenario, encoding="utf-8")
+    return path
+
+
+def diagnosed(scenario: Path, every: Sequence[Recording]) -> Diagnosis:
+    """What is said of three recordings, of which the last one judges."""
+    options = Options(is_brief=True)
+    return diagnose(load_scenario(str(scenario)), every[:2], every[2:], Settings(), options=options).diagnosis
+
+
 def oscillator(folder: Path, integrator: str = "cvode") -> Path:
     """The FMU with its scenario; returns the scenario."""
-    OSCILLATOR.build(folder)
-    path = folder / "scenario.yaml"
-    path.write_text(OSCILLATOR_SCENARIO.replace("INTEGRATOR", integrator), encoding="utf-8")
-    return path
+    return built(OSCILLATOR, OSCILLATOR_SCENARIO.replace("INTEGRATOR", integrator), folder)
 
 
 def tank(folder: Path, stop: str, step: str) -> Path:
     """The FMU of a tank with its scenario, whose end and steps are given; returns the scenario."""
-    TANK.build(folder)
-    path = folder / "scenario.yaml"
-    path.write_text(TANK_SCENARIO.replace("STOP", stop).replace("STEP", step), encoding="utf-8")
-    return path
+    return built(TANK, TANK_SCENARIO.replace("STOP", stop).replace("STEP", step), folder)
 
 
 def oscillator_recordings(

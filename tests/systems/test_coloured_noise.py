@@ -9,17 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cosim.scenario import load_scenario
 from cosim.unit.protocol import Array
-from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.agreement import times_white
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
 from diagnosis.judge.headline import notes
 from diagnosis.judge.verdict import evident
 from diagnosis.recording.recording import load_recording
-from diagnosis.search.search import Settings
 from tests.diagnosis.report_examples import ADEQUACY, CONTACT
-from tests.systems.rigs import LUMP, LUMP_SCENARIO, LUMP_STEP, lump_course, write_recording
+from tests.systems.rigs import LUMP, LUMP_SCENARIO, LUMP_STEP, diagnosed, lump_course, write_recording
 
 COUNT = 500
 QUIET = replace(ADEQUACY, is_rejected=False, is_training_rejected=False, day=(), alike={"a": 0.8, "b": 0.6})
@@ -49,8 +46,7 @@ def _diagnosed(folder: Path, seed: int, correlation: float, offset: float = 0.0)
         channels = {"lump.temperature": ("T", "K", "0.1 K")}
         path = write_recording(folder / f"run_{number + 1}", columns, {"drive.power": ("P", "W")}, channels)
         every.append(load_recording(path))
-    scenario = load_scenario(str(folder / "scenario.yaml"))
-    return diagnose(scenario, every[:2], every[2:], Settings(), options=Options(is_brief=True)).diagnosis
+    return diagnosed(folder / "scenario.yaml", every)
 
 
 @pytest.mark.parametrize(("correlation", "seed"), [(0.8, 1), (0.8, 2), (0.9, 1), (0.9, 2)])

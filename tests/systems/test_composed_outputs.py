@@ -18,7 +18,7 @@ from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import Settings
 from diagnosis.write_outputs import write_outputs
 from evaluation.fmus.model import OdeModel
-from tests.systems.rigs import COUNT, STEP, drive, held, write_recording
+from tests.systems.rigs import COUNT, STEP, built, drive, held, write_recording
 
 #: A mass on a foundation that weighs what acts on it: spring and damper together.
 STAND = OdeModel(
@@ -47,10 +47,7 @@ CUBIC = 9000.0
 
 
 def rig(folder: Path) -> Path:
-    STAND.build(folder)
-    path = folder / "scenario.yaml"
-    path.write_text(SCENARIO, encoding="utf-8")
-    return path
+    return built(STAND, SCENARIO, folder)
 
 
 def answer(folder: Path, at_mass: float, at_foundation: float) -> Result:

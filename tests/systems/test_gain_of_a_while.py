@@ -10,14 +10,12 @@ import pandas as pd
 import pytest
 
 from cosim.scenario import load_scenario
-from diagnosis.diagnose import Options, diagnose
 from diagnosis.faults.model import FaultyModel, with_faults
 from diagnosis.judge.diagnosis import Verdict
 from diagnosis.models.cosimulation.model import ClosedLoopModel
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.problem import Point, Term
-from diagnosis.search.search import Settings
-from tests.systems.rigs import oscillator, oscillator_recordings
+from tests.systems.rigs import diagnosed, oscillator, oscillator_recordings
 
 GAIN, BEGIN, END = 0.3, 1.2, 2.6
 
@@ -48,8 +46,7 @@ def _gain(model: FaultyModel) -> Term:
 
 def test_a_gain_that_was_off_for_a_while_is_told(rig: tuple[Path, list[Path]]) -> None:
     every = [load_recording(r) for r in rig[1]]
-    scenario = load_scenario(str(rig[0] / "scenario.yaml"))
-    found = diagnose(scenario, every[:2], every[2:], Settings(), options=Options(is_brief=True)).diagnosis
+    found = diagnosed(rig[0] / "scenario.yaml", every)
     assert found.verdict is Verdict.MEASUREMENT_FAULT
     (finding,) = [f for f in found.findings if f.is_accepted]
     assert finding.effect == "sensor_gain_in_interval"

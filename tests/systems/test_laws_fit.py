@@ -59,6 +59,8 @@ RIG = OdeModel(
         "power": ("W", "R*i*i"),
     },
 )
+#: A law that is tried, the quantities of its FMU, and what these are simulated as.
+Fitted = tuple[Fit, Places, dict[str, Array]]
 #: Inputs with values that they take one after the other.
 INPUTS = {
     "force": ("N", 1.0, -2.0),
@@ -71,7 +73,7 @@ INPUTS = {
 }
 
 
-def _fitted(folder: Path, integrator: str) -> list[tuple[Fit, Places, dict[str, Array]]]:
+def _fitted(folder: Path, integrator: str) -> list[Fitted]:
     """Laws that are tried, with the quantities and what they are simulated as."""
     outputs = ", ".join(
         f"{name}: {{unit: {unit}, points: [[0 s, {first} {unit}], [4 s, {then} {unit}]]}}"
@@ -95,7 +97,7 @@ def _fitted(folder: Path, integrator: str) -> list[tuple[Fit, Places, dict[str, 
 
 
 @pytest.fixture(scope="module")
-def every(tmp_path_factory: pytest.TempPathFactory) -> list[tuple[Fit, Places, dict[str, Array]]]:
+def every(tmp_path_factory: pytest.TempPathFactory) -> list[Fitted]:
     """Where the FMU shows its states, and where it hides them."""
     folder = tmp_path_factory.mktemp("rig")
     RIG.build(folder)
@@ -103,7 +105,7 @@ def every(tmp_path_factory: pytest.TempPathFactory) -> list[tuple[Fit, Places, d
 
 
 @pytest.fixture(scope="module")
-def tried(every: list[tuple[Fit, Places, dict[str, Array]]]) -> set[str]:
+def tried(every: list[Fitted]) -> set[str]:
     """Laws that are tried."""
     return {fit.law.identifier for fit, _, _ in every}
 
@@ -113,19 +115,19 @@ def test_every_law_is_tried_somewhere(tried: set[str], law: Law) -> None:
     assert law.identifier in tried
 
 
-def test_a_search_begins_at_values_that_a_quantity_takes(every: list[tuple[Fit, Places, dict[str, Array]]]) -> None:
+def test_a_search_begins_at_values_that_a_quantity_takes(every: list[Fitted]) -> None:
     """A knot, a stop or a phase change where the quantity never is would change nothing, and no fit leaves it."""
     asked = 0
     for fit, own, taken in every:
-        outside = {
+        meant = {
             name: values
             for name, values in taken.items()
             if name in {*own.states, *own.outputs} and name in fit.term.law and values.shape[1] == 1
         }
         for parameter in fit.term.parameters:
-            if not parameter.is_reading or len(outside) != 1:
+            if not parameter.is_reading or len(meant) != 1:
                 continue
-            (values,) = outside.values()
+            (values,) = meant.values()
             assert values.min() < min(parameter.starts) < max(parameter.starts) < values.max(), fit.term
             assert parameter.lower <= values.min()
             assert values.max() <= parameter.upper

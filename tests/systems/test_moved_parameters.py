@@ -14,7 +14,6 @@ from cosim.ssp.command import scenario_of
 from cosim.ssp.export import export_ssp
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
-from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
 from diagnosis.laws.library import library
 from diagnosis.models.systems.fast import FastSystem
@@ -22,10 +21,9 @@ from diagnosis.models.systems.placed import Placed
 from diagnosis.models.systems.places import fits, places_of
 from diagnosis.models.systems.quantities import Places
 from diagnosis.recording.recording import load_recording
-from diagnosis.search.search import Settings
 from evaluation.fmus.model import OdeModel
 from tests.fmi.fmi_models import build
-from tests.systems.rigs import held, write_recording
+from tests.systems.rigs import diagnosed, held, write_recording
 
 #: A winding that warms itself; with `k` its resistance grows with the temperature.
 NUMBERS = {
@@ -206,8 +204,7 @@ def _diagnosed(folder: Path, k: float) -> Diagnosis:
         every.append(
             load_recording(write_recording(folder / f"run_{number}", columns, {"drive.u": ("U", "V")}, channels))
         )
-    scenario = load_scenario(str(path))
-    return diagnose(scenario, every[:2], every[2:], Settings(), options=Options(is_brief=True)).diagnosis
+    return diagnosed(path, every)
 
 
 def test_a_resistance_that_grows_with_the_temperature_is_found_with_its_coefficient(tmp_path: Path) -> None:

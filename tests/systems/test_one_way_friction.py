@@ -7,14 +7,11 @@ from pathlib import Path
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from cosim.scenario import load_scenario
-from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Standing, Verdict
 from diagnosis.recording.recording import load_recording
 from diagnosis.report.sentences import ambiguity, what
-from diagnosis.search.search import Settings
 from evaluation.fmus.model import OdeModel
-from tests.systems.rigs import write_recording
+from tests.systems.rigs import diagnosed, write_recording
 
 INERTIA, TORQUE, DRAG, CAPACITY, LOSS, ROOM = 5e-3, 0.02, 2e-5, 20.0, 0.3, 293.0
 #: Torque of the bearings [N m], and emissivity times surface times Stefan and Boltzmann's constant [W/K^4].
@@ -70,8 +67,7 @@ def test_the_law_found_first_is_compared_with_its_twin_once_the_other_is_there(t
         inputs = {"dials.volts": ("U", "V"), "dials.power": ("P", "W")}
         channels = {"dryer.speed": ("speed", "rad/s", "0.1 rad/s"), "dryer.warmth": ("warmth", "K", "0.1 K")}
         recordings.append(load_recording(write_recording(tmp_path / f"run_{number + 1}", columns, inputs, channels)))
-    scenario = load_scenario(tmp_path / "scenario.yaml")
-    made = diagnose(scenario, recordings[:2], recordings[2:], Settings(), options=Options(is_brief=True)).diagnosis
+    made = diagnosed(tmp_path / "scenario.yaml", recordings)
     assert made.verdict is Verdict.MISSING_PHYSICS
     assert len([f for f in made.findings if f.is_accepted]) > 1
     (one,) = [f for f in made.findings if f.is_accepted and f.place in ("dryer.w", "dryer.volts")]

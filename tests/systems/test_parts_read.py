@@ -7,18 +7,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cosim.scenario import load_scenario, parse_scenario
+from cosim.scenario import parse_scenario
 from cosim.unit.protocol import Array
-from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
 from diagnosis.laws.library import library
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.places import Fit, fits, places_of
 from diagnosis.models.systems.quantities import Places
 from diagnosis.recording.recording import load_recording
-from diagnosis.search.search import Settings
 from evaluation.fmus.model import OdeModel
-from tests.systems.rigs import held, write_recording
+from tests.systems.rigs import diagnosed, held, write_recording
 
 #: Inertia of a drum [kg], of a load [kg], stiffness of the tendon between them [N/m], friction of both [N s/m].
 DRUM, LOAD, TENDON, LOSS = 0.8, 1.5, 400.0, 6.0
@@ -135,8 +133,7 @@ def _diagnosed(folder: Path, is_read: bool) -> Diagnosis:
         }
         path = write_recording(folder / f"run_{number}", columns, {"motor.pull": ("F", "N")}, channels)
         every.append(load_recording(path))
-    scenario = load_scenario(str(folder / "scenario.yaml"))
-    return diagnose(scenario, every[:2], every[2:], Settings(), options=Options(is_brief=True)).diagnosis
+    return diagnosed(folder / "scenario.yaml", every)
 
 
 @pytest.mark.parametrize("is_read", [True, False], ids=["in the tendon", "beside it"])

@@ -9,15 +9,13 @@ import pytest
 
 from cosim.scenario import load_scenario
 from cosim.unit.protocol import Array
-from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
 from diagnosis.laws.library import library
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.places import fits, places_of
 from diagnosis.recording.recording import load_recording
-from diagnosis.search.search import Settings
 from evaluation.fmus.model import OdeModel
-from tests.systems.rigs import held, write_recording
+from tests.systems.rigs import built, diagnosed, held, write_recording
 
 #: A carriage on a rail, drawn back by a spring.
 RAIL = OdeModel(
@@ -38,10 +36,7 @@ connections: [drive.force -> rail.force]
 
 
 def _scenario(folder: Path) -> Path:
-    RAIL.build(folder)
-    path = folder / "scenario.yaml"
-    path.write_text(SCENARIO, encoding="utf-8")
-    return path
+    return built(RAIL, SCENARIO, folder)
 
 
 def _diagnosed(folder: Path, more: float) -> Diagnosis:
@@ -62,18 +57,9 @@ def _diagnosed(folder: Path, more: float) -> Diagnosis:
             "force": force[::5][: len(states)],
             "x": states[:, 0] + 0.004 * rng.standard_normal(len(states)),
         }
-        every.append(
-            load_recording(
-                write_recording(
-                    folder / f"run_{number}",
-                    columns,
-                    {"drive.force": ("force", "N")},
-                    {"rail.place": ("x", "m", "4 mm")},
-                )
-            )
-        )
-    scenario = load_scenario(str(path))
-    return diagnose(scenario, every[:2], every[2:], Settings(), options=Options(is_brief=True)).diagnosis
+        inputs, channels = {"drive.force": ("force", "N")}, {"rail.place": ("x", "m", "4 mm")}
+        every.append(load_recording(write_recording(folder / f"run_{number}", columns, inputs, channels)))
+    return diagnosed(path, every)
 
 
 def test_a_drag_that_grows_beyond_a_place_is_found_with_it(tmp_path: Path) -> None:

@@ -10,7 +10,6 @@ import pandas as pd
 import pytest
 
 from cosim.scenario import load_scenario
-from diagnosis.diagnose import Options, diagnose
 from diagnosis.faults.model import with_faults
 from diagnosis.judge.diagnosis import Estimate, Verdict
 from diagnosis.models.cosimulation.model import ClosedLoopModel
@@ -18,9 +17,8 @@ from diagnosis.recording.recording import load_recording
 from diagnosis.report.unit_factor import unit_factor
 from diagnosis.search import grow
 from diagnosis.search.problem import Point
-from diagnosis.search.search import Settings
 from tests.diagnosis.report_examples import CONTACT
-from tests.systems.rigs import LUMP, LUMP_SCENARIO, LUMP_STEP, lump_course, write_recording
+from tests.systems.rigs import LUMP, LUMP_SCENARIO, LUMP_STEP, diagnosed, lump_course, write_recording
 
 COUNT = 500
 SHARE, BEGIN, END = 0.8, 300.0, 600.0
@@ -54,8 +52,7 @@ def test_a_thermometer_that_came_loose_is_told_by_its_share_of_the_rise(
 
     monkeypatch.setattr(grow, "_tried_all_the_same", tried)
     every = [load_recording(r) for r in rig[1]]
-    scenario = load_scenario(str(rig[0] / "scenario.yaml"))
-    found = diagnose(scenario, every[:2], every[2:], Settings(), options=Options(is_brief=True)).diagnosis
+    found = diagnosed(rig[0] / "scenario.yaml", every)
     assert found.verdict is Verdict.MEASUREMENT_FAULT
     (finding,) = [f for f in found.findings if f.is_accepted]
     assert (finding.effect, finding.recording) == ("sensor_rise_in_interval", "run_2")

@@ -7,14 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cosim.scenario import load_scenario
 from cosim.unit.protocol import Array
-from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
 from diagnosis.recording.recording import load_recording
-from diagnosis.search.search import Settings
 from evaluation.fmus.model import OdeModel
-from tests.systems.rigs import held, write_recording
+from tests.systems.rigs import diagnosed, held, write_recording
 
 #: Resistance and inductance of a lifting magnet [ohm, H], current at which its differential inductance is half [A].
 R, L, KNEE = 8.0, 0.5, 1.6
@@ -53,8 +50,7 @@ def _diagnosis(folder: Path, knee: float) -> Diagnosis:
         channels = {"coil.current": ("I", "A", f"{NOISE} A")}
         path = write_recording(folder / f"run_{number + 1}", columns, {"amplifier.voltage": ("U", "V")}, channels)
         every.append(load_recording(path))
-    scenario = load_scenario(str(folder / "scenario.yaml"))
-    return diagnose(scenario, every[:2], every[2:], Settings(), options=Options(is_brief=True)).diagnosis
+    return diagnosed(folder / "scenario.yaml", every)
 
 
 def test_iron_that_saturates_is_named_with_the_current_at_which_it_does(tmp_path: Path) -> None:

@@ -11,15 +11,13 @@ from cosim.run import run
 from cosim.scenario import load_scenario, parse_scenario
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
-from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
 from diagnosis.laws.library import library
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.places import Fit, fits, places_of
 from diagnosis.recording.recording import load_recording
-from diagnosis.search.search import Settings
 from evaluation.fmus.model import OdeModel
-from tests.systems.rigs import LUMP, ROOM, held, write_recording
+from tests.systems.rigs import LUMP, ROOM, built, diagnosed, held, write_recording
 
 STEP, COUNT = 2.0, 600
 LATENT, MELTING, WIDTH = 4.0, 318.0, 2.5
@@ -44,10 +42,7 @@ BOTH = """added_terms:
 
 
 def _scenario(folder: Path, added: str) -> Path:
-    LUMP.build(folder)
-    path = folder / "scenario.yaml"
-    path.write_text(SCENARIO.replace("ADDED", added), encoding="utf-8")
-    return path
+    return built(LUMP, SCENARIO.replace("ADDED", added), folder)
 
 
 @pytest.mark.parametrize(("added", "share", "heat"), [(CONSTANT, 0.5, 0.0), (BOTH, 0.5, 0.01)])
@@ -138,8 +133,7 @@ def _wax(folder: Path, latent: float) -> Diagnosis:
         columns = {"t": STEP * np.arange(COUNT), "P": power, "T": states[:, 0] + 0.1 * rng.standard_normal(COUNT)}
         inputs, channels = {"drive.power": ("P", "W")}, {"lump.temperature": ("T", "K", "0.1 K")}
         every.append(load_recording(write_recording(folder / f"run_{number + 1}", columns, inputs, channels)))
-    scenario = load_scenario(str(folder / "scenario.yaml"))
-    return diagnose(scenario, every[:2], every[2:], Settings(), options=Options(is_brief=True)).diagnosis
+    return diagnosed(folder / "scenario.yaml", every)
 
 
 def test_latent_heat_is_named_with_its_temperature(tmp_path: Path) -> None:

@@ -7,17 +7,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cosim.scenario import load_scenario, parse_scenario
+from cosim.scenario import parse_scenario
 from cosim.unit.protocol import Array
-from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Verdict
 from diagnosis.laws.library import library
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.places import fits, places_of
 from diagnosis.recording.recording import load_recording
-from diagnosis.search.search import Settings
 from evaluation.fmus.model import OdeModel
-from tests.systems.rigs import held, write_recording
+from tests.systems.rigs import diagnosed, held, write_recording
 
 #: Inertias of the rotor and of the drum that it drives through a clutch [kg*m^2], damping of their bearings [N*m*s].
 J_1, J_2, B_1, B_2 = 0.004, 0.03, 2e-3, 6e-3
@@ -82,8 +80,7 @@ def test_a_clutch_that_rubs_is_told_with_its_torque_and_the_ratio_of_inertias(tm
         channels = {f"drum.{name}": (name, "rad/s", "0.05 rad/s") for name in ("rotor", "drum")}
         path = write_recording(tmp_path / f"run_{number + 1}", columns, {"motor.torque": ("M", "N*m")}, channels)
         every.append(load_recording(path))
-    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
-    found = diagnose(scenario, every[:2], every[2:], Settings(), options=Options(is_brief=True)).diagnosis
+    found = diagnosed(tmp_path / "scenario.yaml", every)
     assert found.verdict is Verdict.MISSING_PHYSICS, found.statement
     (finding,) = [f for f in found.findings if f.is_accepted]
     assert (finding.effect, finding.is_named) == ("coupling_friction_of_w_2", True)

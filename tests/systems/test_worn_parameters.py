@@ -9,15 +9,13 @@ import pytest
 
 from cosim.scenario import load_scenario
 from cosim.unit.protocol import Array
-from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
 from diagnosis.laws.library import library
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.places import fits, places_of
 from diagnosis.recording.recording import load_recording
-from diagnosis.search.search import Settings
 from evaluation.fmus.model import OdeModel
-from tests.systems.rigs import held, write_recording
+from tests.systems.rigs import built, diagnosed, held, write_recording
 
 #: A vessel that empties through a filter.
 FILTER = OdeModel(
@@ -38,10 +36,7 @@ connections: [pump.inflow -> filter.inflow]
 
 
 def _scenario(folder: Path) -> Path:
-    FILTER.build(folder)
-    path = folder / "scenario.yaml"
-    path.write_text(SCENARIO, encoding="utf-8")
-    return path
+    return built(FILTER, SCENARIO, folder)
 
 
 def _diagnosed(folder: Path, clog: float) -> Diagnosis:
@@ -65,8 +60,7 @@ def _diagnosed(folder: Path, clog: float) -> Diagnosis:
         channels = {"filter.level": ("h", "m", "0.003 m"), "filter.outflow": ("out", "m^3/s", "1e-4 m^3/s")}
         inputs = {"pump.inflow": ("q", "m^3/s")}
         every.append(load_recording(write_recording(folder / f"run_{number}", columns, inputs, channels)))
-    scenario = load_scenario(str(path))
-    return diagnose(scenario, every[:2], every[2:], Settings(), options=Options(is_brief=True)).diagnosis
+    return diagnosed(path, every)
 
 
 def test_a_filter_that_clogs_by_what_flowed_through_it_is_found_with_its_capacity(tmp_path: Path) -> None:

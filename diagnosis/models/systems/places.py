@@ -171,16 +171,15 @@ def _quantities(
         slopes = [np.gradient(v, step) for v in values if len(v) > 1]
         rate = float(np.sqrt(np.mean([np.mean(s**2) for s in slopes]))) if slopes else 0.0
         size = size or max(abs(middle), 1.0)
-        peak = max(float(np.max(np.abs(v - middle))) for v in values)
         least, most = min(float(np.min(v)) for v in values), max(float(np.max(v)) for v in values)
         unit, stated = fmu.units[name], None
         if parse_unit(unit).dimensionality == parse_unit("K").dimensionality:
             stated = middle, size
             factor, offset = conversion(unit, "K")
-            unit, size, rate, peak = "K", factor * size, factor * rate, factor * peak
+            unit, size, rate = "K", factor * size, factor * rate
             middle, least, most = (factor * v + (0.0 if is_difference else offset) for v in (middle, least, most))
         rate = rate or size / max(step * 100, 1e-9)
-        found[name] = Quantity(name, unit, size, middle, rate, stated, peak, least, most)
+        found[name] = Quantity(name, unit, size, middle, rate, stated, least, most)
     return found
 
 

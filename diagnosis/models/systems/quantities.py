@@ -17,7 +17,6 @@ class Quantity:
         middle: Value about which it moves.
         rate: How fast it changes, per second.
         stated: Middle and size in the unit that the FMU states, where that is another one.
-        peak: Farthest that it goes from its middle in the recordings, in `unit`; 0: not known.
         least: Smallest value that it takes in the recordings, in `unit`.
         most: Largest one; not above the smallest: not known, or it does not move.
     """
@@ -28,9 +27,13 @@ class Quantity:
     middle: float
     rate: float
     stated: tuple[float, float] | None = None
-    peak: float = 0.0
     least: float = 0.0
     most: float = 0.0
+
+    @property
+    def peak(self) -> float:
+        """Farthest that it goes from its middle in the recordings; 0: not known."""
+        return max(self.most - self.middle, self.middle - self.least) if self.least < self.most else 0.0
 
     def value_at(self, share: float) -> float:
         """Value at a share of the way from the least to the largest one, of a sine where these are not known."""
