@@ -41,6 +41,7 @@ from evaluation.strangers import (
     twentieth_set,
     twenty_first_set,
     twenty_second_set,
+    twenty_third_set,
 )
 from evaluation.strangers.first_set import Rng
 from evaluation.strangers.truth import OPEN, Truth
@@ -68,6 +69,7 @@ SETS = {
     "twentieth": twentieth_set.CASES,
     "twenty_first": twenty_first_set.CASES,
     "twenty_second": twenty_second_set.CASES,
+    "twenty_third": twenty_third_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
