@@ -299,17 +299,19 @@ def _confused(model: DiagnosisModel, judge: _Judge, current: Explanation, term: 
     """Laws of which a law says that data often cannot tell them from it, with what each leaves more in its place.
 
     What is interpolated between few simulations is simulated there: a law that predicts the readings that judge as well
-    at its fitted strength, or at a smaller or larger one within its bounds, leaves nothing more.
+    at its fitted strength, or at a smaller or larger one up to its bounds, leaves nothing more. What one law says of
+    another holds for both.
     """
     names = model.where(term)[0].confused_with
-    others = [t for t in model.terms() if t.identifier in names and t.place == term.place and t not in current.terms]
+    beside = [t for t in model.terms() if t.place == term.place and t not in current.terms]
+    others = [t for t in beside if t.identifier in names or term.identifier in model.where(t)[0].confused_with]
     right, without, found = judge.predict(current.fit.point), current.fit.point.without(term), []
     for other in others:
         first, *rest = other.parameters
         starts = [without.plus(other, (size, *(p.starts[0] for p in rest))) for size in first.starts]
         fitted = Explanation(fit_best(model, starts, EXCHANGE, current.fit))
         strength, *shape = fitted.fit.point.terms[other]
-        sizes = [share * strength for share in STRENGTHS if first.lower <= share * strength <= first.upper]
+        sizes = list(dict.fromkeys(float(np.clip(share * strength, first.lower, first.upper)) for share in STRENGTHS))
         points = [fitted.fit.point.plus(other, (size, *shape)) for size in sizes]
         is_told = all(gain(judge.predict(p), right, judge.unfitted.readings).is_gain for p in points)
         behind = fitted.demerit - current.demerit

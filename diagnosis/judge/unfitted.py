@@ -81,11 +81,25 @@ class Readings:
         readings of a stretch alike."""
         counts = np.bincount(self.channel, minlength=len(self.channels))
         found = np.ones(len(self.channels))
-        for number, (channel, count) in enumerate(zip(self.channels, counts.tolist())):
-            if channel.scatter > 0.0 and count:
-                share = (channel.scatter / deviation(channel)) ** 2
-                found[number] = independent([[(count, min(share, 1.0), 0.0)]]) / count
+        for number, (share, count) in enumerate(zip(self._shares, counts.tolist())):
+            if share > 0.0 and count:
+                found[number] = independent([[(count, share, 0.0)]]) / count
         return np.asarray(found[self.channel])
+
+    @cached_property
+    def scattered(self) -> Array:
+        """Square of the share of the variance of each one that is scatter of the simulation, 0 to 1.
+
+        As many times more as channels scatter together.
+        """
+        together = np.array([c.scatter_together for c in self.channels])
+        return np.asarray((self._shares**2 * together)[self.channel])
+
+    @cached_property
+    def _shares(self) -> Array:
+        """The same by channel."""
+        shares = [min((c.scatter / deviation(c)) ** 2, 1.0) if c.scatter > 0.0 else 0.0 for c in self.channels]
+        return np.array(shares, dtype=np.float64)
 
 
 def readings_of(runs: Sequence[RecordedRun], titles: Sequence[str]) -> Readings:

@@ -7,7 +7,7 @@ models answer; a wrapper (`diagnosis.models.wrappers.wrapped`) hands every quest
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
@@ -33,6 +33,19 @@ Scaled = Callable[[Array, slice], Array]
 def unscaled(rows: Array, own: slice) -> Array:
     """Changes of residuals as they are."""
     return rows
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """What simulations of equal rigs differ by.
+
+    Args:
+        deviations: By channel, SI.
+        together: How many times more the sum of squares over all channels varies than if each scattered by itself.
+    """
+
+    deviations: Mapping[str, float] = field(default_factory=dict)
+    together: float = 1.0
 
 
 class Effect(Protocol):
@@ -367,11 +380,11 @@ class DiagnosisModel(Protocol):
 
     # What its simulation scatters by itself.
 
-    def scatter(self) -> Mapping[str, float]:
-        """Deviation that its own search found the simulation to have, by channel, SI; empty without scatter."""
+    def scatter(self) -> Scatter:
+        """What its own search found the simulation to scatter by; nothing where it does not."""
         ...
 
-    def take_scatter(self, scatter: Mapping[str, float]) -> None:
+    def take_scatter(self, scatter: Scatter) -> None:
         """Count scatter that another model of the same rig found as noise of the same channels.
 
         Args:
@@ -542,11 +555,11 @@ class ModelBase:
         """None: it is searched as any other."""
         return None
 
-    def scatter(self) -> Mapping[str, float]:
-        """Empty: the same simulation gives the same values."""
-        return {}
+    def scatter(self) -> Scatter:
+        """Nothing: the same simulation gives the same values."""
+        return Scatter()
 
-    def take_scatter(self, scatter: Mapping[str, float]) -> None:
+    def take_scatter(self, scatter: Scatter) -> None:
         """Nothing is taken."""
 
     def is_moved_by(self: DiagnosisModel, term: Term, values: Sequence[float]) -> bool:

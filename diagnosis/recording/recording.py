@@ -62,6 +62,8 @@ class Channel:
             simulated time), with their number; `diagnosis.recording.usage` puts it into words.
         later: How much `times` were moved, to compare readings with the output after a change of an input [s].
         scatter: Part of `deviation` by which the simulation scatters by itself (contacts), SI; it is not white.
+        scatter_together: How many times more the sum of squares over all channels varies by it than if each channel
+            scattered by itself.
         is_of_each_reading: Whether the deviation was given for each reading, as a camera's tracks have it: it may hold
             what neighbours share.
     """
@@ -81,6 +83,7 @@ class Channel:
     dropped: Mapping[str, int] = field(default_factory=dict)
     later: float = 0.0
     scatter: float = 0.0
+    scatter_together: float = 1.0
     is_of_each_reading: bool = False
 
     @property

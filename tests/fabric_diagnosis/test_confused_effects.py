@@ -94,9 +94,15 @@ def test_what_does_as_well_is_a_rival_and_what_does_not_is_none(likeness: float,
     assert [a.effect for a in alternatives] == (["payload"] if is_open else [])
 
 
-def test_an_effect_that_names_no_other_has_no_such_rival() -> None:
+def test_an_effect_that_names_no_other_and_that_none_names_has_no_such_rival() -> None:
     known, best = found(0.3)
     assert confused(known, Explanation(best.fit), WIRES) == ()
+
+
+def test_of_two_laws_one_has_to_name_the_other() -> None:
+    known, best = found(0.3)
+    asked = replace(best.fit, point=Point(best.fit.point.base, {FRICTION: (1.0,)}))
+    assert [other for other, _ in confused(known, Explanation(asked), FRICTION)] == [TILT]
 
 
 def test_what_predicts_the_readings_that_judge_as_well_is_a_rival_whatever_few_simulations_say_of_it() -> None:
@@ -111,8 +117,9 @@ def test_rivals_are_asked_at_their_fitted_strength_and_at_others() -> None:
     judge = Judge()
     _confused(known, judge, best, TILT)  # type: ignore[arg-type]
     sizes = [p.terms[PAYLOAD][0] for p in judge.asked if PAYLOAD in p.terms]
-    within = [share for share in STRENGTHS if share * sizes[1] <= PAYLOAD.parameters[0].upper]
-    assert np.array(sizes) / sizes[1] == pytest.approx(np.array(within))
+    # The bound itself is asked: coils that stay cold are the end of coils that are heated less.
+    within = [share * sizes[1] for share in STRENGTHS if share * sizes[1] < PAYLOAD.parameters[0].upper]
+    assert sizes == pytest.approx([*within, PAYLOAD.parameters[0].upper])
     assert len(within) >= 3
     assert not any(TILT in p.terms for p in judge.asked)
 

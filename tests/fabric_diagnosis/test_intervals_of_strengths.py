@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ from diagnosis.candidates.registry import catalogue
 from diagnosis.judge.estimates import estimated, estimates
 from diagnosis.models.build import model_of
 from diagnosis.models.fabric.model import FabricModel
-from diagnosis.models.fabric.strengths import interval_of, next_sizes
+from diagnosis.models.fabric.strengths import fitted_sizes, interval_of, next_sizes
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.problem import TermParameter
 from diagnosis.search.search import Settings
@@ -26,6 +27,26 @@ SHARE = TermParameter("steel_loss", "1", 0.0, 0.9, (0.4,))
 def runs(level: float, scatter: float = 0.0, count: int = 6) -> Array:
     """Misfits of so many runs about a level."""
     return np.asarray(level + scatter * np.resize([-1.0, 1.0], count))
+
+
+@pytest.mark.parametrize(
+    ("strength", "known", "parameter", "sizes"),
+    [
+        (0.7, [0.4], SHARE, [0.7, 0.9]),  # springs weaker than any that were simulated: left out, too
+        (0.3, [0.4], SHARE, [0.3]),  # between simulations a straight line is known at both ends
+        (0.85, [0.4], SHARE, [0.85]),  # hardly below the largest, which would say nothing else
+        (
+            -0.1,
+            [0.075, -0.075],
+            ROLL,
+            [-0.1, -0.3],
+        ),  # of the same sign, no farther than is believed
+        (0.45, [0.075], ROLL, [0.45]),  # beyond belief already
+        (0.0, [0.075], ROLL, []),
+    ],
+)
+def test_beyond_what_was_simulated_the_largest_is_simulated_too(strength, known, parameter, sizes) -> None:
+    assert fitted_sizes(strength, known, replace(parameter, plausible=0.3 if parameter is ROLL else 1.0)) == sizes
 
 
 def test_exact_parabola_gives_what_curvature_gives() -> None:

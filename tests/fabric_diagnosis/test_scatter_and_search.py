@@ -150,3 +150,13 @@ def test_a_run_is_compared_with_parameters_moved_as_far_as_their_priors_allow():
         by_hand = np.sum(whiten(measured - rows) ** 2, axis=1) + values**2
         assert found == pytest.approx(float(by_hand.min()), rel=1e-4)
         assert found <= by_hand[int(np.argmin(np.abs(values - 0.4)))]
+
+
+def test_channels_that_contacts_move_at_once_tell_less() -> None:
+    """Markers of one link, and markers that scatter by themselves: shrinkage leaves half of what is alike."""
+    alone = members(8, 21)
+    one = 0.05 + (alone[:, CHANNEL == 0] - 0.05)[:, np.searchsorted(np.unique(TIME), TIME)]
+    apart, alike = (model(m[0], m).scatters_together() for m in (alone, one))
+    assert 1.0 <= apart < 2.0  # correlations of eight draws are no more than chance, and half of them is left
+    assert alike > 2.0 * apart
+    assert alike < CHANNELS

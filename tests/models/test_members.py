@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from cosim.scenario import load_scenario
-from diagnosis.models.protocol import DiagnosisModel, ModelBase
+from diagnosis.models.protocol import DiagnosisModel, ModelBase, Scatter
 from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Settings
@@ -172,10 +172,10 @@ def test_scatter_is_of_a_model_that_says_so(model: DiagnosisModel) -> None:
 
     before = deviations()
     if not model.has_scatter:
-        assert model.scatter() == {}
-    model.take_scatter({s.channel.name: 3.0 for run in model.runs for s in run.series})
+        assert model.scatter() == Scatter()
+    model.take_scatter(Scatter({s.channel.name: 3.0 for run in model.runs for s in run.series}, 2.0))
     assert (deviations() != before) is model.has_scatter
-    model.take_scatter({})
+    model.take_scatter(Scatter())
     assert deviations() == before
 
 

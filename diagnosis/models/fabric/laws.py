@@ -259,7 +259,7 @@ _LINK_LAWS = (
             "force that friction holds in the slide",
             SHARE,
         ),
-        {"weak_coil": _HOT, "slide_friction": _ONE_LINK},
+        {"weak_coil": _HOT, "unheated_coil": "the cold part decides", "slide_friction": _ONE_LINK},
     ),
 )
 

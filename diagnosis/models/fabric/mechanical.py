@@ -155,6 +155,20 @@ class MechanicalModel:
         null.measured = run + self._noise(seed, number, 1)
         return null
 
+    def scatters_together(self) -> float:
+        """How many times more the sum of squares over all channels varies than if each scattered by itself.
+
+        For draws of covariance C, the variance of a sum of squares is 2 trace(C C), each channel in its own deviation.
+        Contacts move many markers at once, and two engines differ in a direction.
+        """
+        variance = np.diag(self.scatter) + self.bins.noise**2
+        own = np.bincount(self.bins.channel, variance) / np.maximum(np.bincount(self.bins.channel), 1)
+        deviation = np.sqrt(own)[self.bins.channel]
+        squares = (self.scatter / np.outer(deviation, deviation)) ** 2
+        is_same = self.bins.channel[:, None] == self.bins.channel[None, :]
+        alone = float(np.sum(squares[is_same]))
+        return float(np.sum(squares)) / alone if alone > 0.0 else 1.0
+
     def scatter_deviation(self) -> Array:
         """Standard deviation of scatter in each bin, shape (bins,)."""
         return np.asarray(np.sqrt(np.diag(self.scatter)))

@@ -37,7 +37,7 @@ from diagnosis.models.fabric.runs import (
 from diagnosis.models.fabric.scatter import FEWEST
 from diagnosis.models.fabric.search import SAME, STEP, search_fabric
 from diagnosis.models.fabric.unmeasured import UnmeasuredBins, with_unmeasured
-from diagnosis.models.protocol import ComparedRun, ComparedSeries, Labelled, ModelBase, compared_run
+from diagnosis.models.protocol import ComparedRun, ComparedSeries, Labelled, ModelBase, Scatter, compared_run
 from diagnosis.models.timeline import Timeline
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
@@ -123,7 +123,7 @@ class FabricModel(ModelBase):
         self._mechanical: MechanicalModel | None = None
         #: What each residual belongs to, those of the coil network first; known once it is prepared.
         self.layout = Layout(np.zeros(0), np.zeros(0), (), ())
-        self._scatter: dict[str, float] = {}
+        self._scatter = Scatter()
         self._intervals: dict[Term, tuple[float, float]] = {}
         self._has_speed = "start_speed" in given.parameters
         recorded = [len(r.channels) for r in self.mechanical_recordings]
@@ -187,8 +187,13 @@ class FabricModel(ModelBase):
             electrical = tuple(ComparedSeries(s.channel, s.samples, s.used) for s in given)
             own = []
             for c in recording.channels.values():
-                scatter = self._scatter.get(c.name, 0.0)
-                both = replace(c, deviation=float(np.hypot(c.deviation, scatter)), scatter=scatter)
+                scatter = self._scatter.deviations.get(c.name, 0.0)
+                both = replace(
+                    c,
+                    deviation=float(np.hypot(c.deviation, scatter)),
+                    scatter=scatter,
+                    scatter_together=self._scatter.together,
+                )
                 own.append(ComparedSeries(both, np.arange(len(c.times)), ~c.is_clipped))
             found.append(compared_run((*electrical, *own)))
         return found
@@ -433,17 +438,18 @@ class FabricModel(ModelBase):
         """True: contacts scatter."""
         return True
 
-    def scatter(self) -> dict[str, float]:
-        """Contact scatter by channel, SI, once it is prepared."""
+    def scatter(self) -> Scatter:
+        """Contact scatter by channel, and how far channels scatter together, once it is prepared."""
         deviation = self.prepared.scatter_deviation()
         found: dict[str, list[float]] = {}
         for number, name in enumerate(self.binning.plain_names):
             found.setdefault(name, []).extend((deviation[self.prepared.bins.channel == number] ** 2).tolist())
-        return {name: float(np.sqrt(np.mean(squares))) for name, squares in found.items()}
+        deviations = {name: float(np.sqrt(np.mean(squares))) for name, squares in found.items()}
+        return Scatter(deviations, self.prepared.scatters_together())
 
-    def take_scatter(self, scatter: Mapping[str, float]) -> None:
+    def take_scatter(self, scatter: Scatter) -> None:
         """Count contact scatter as noise of the channels."""
-        self._scatter = dict(scatter)
+        self._scatter = scatter
 
     def own_search(self, settings: Settings, on_progress: Callable[[str], None]) -> Outcome:
         """See `diagnosis.models.fabric.search.search_fabric`."""

@@ -12,7 +12,7 @@ from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.models.fabric.mechanical import MechanicalModel
 from diagnosis.models.fabric.scatter import FEWEST, Whitening, calibrated_scatter
-from diagnosis.models.fabric.strengths import interval_of, next_sizes
+from diagnosis.models.fabric.strengths import fitted_sizes, interval_of, next_sizes
 from diagnosis.models.fabric.surface import Surface
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search
@@ -382,25 +382,29 @@ class _Plan:
     def sharpen(self, outcome: Outcome, most: int) -> bool:
         """Simulate at most so many hopeful effects where they were fitted; whether any was."""
         laws = set(self.model.laws())
-        wanted: dict[Term, tuple[Point, float]] = {}
+        wanted: dict[Term, tuple[Point, list[float]]] = {}
         for explanation in self._hopeful_of(outcome):
             for term in explanation.terms:
-                if term in laws and self._is_far(term, explanation) and len(wanted) < most:
-                    wanted.setdefault(term, (explanation.fit.point, explanation.fit.point.terms[term][0]))
+                if term in laws and term not in wanted and len(wanted) < most:
+                    sizes = self._sizes(term, explanation.fit.point.terms[term][0])
+                    if sizes:
+                        wanted[term] = explanation.fit.point, sizes
         if not wanted:
             return False
-        self._enter("hopeful effects where they were fitted", len(wanted) * self._sharpened)
-        points = [self._point(self.model.own_point(p).base, {t: (s,)}) for t, (p, s) in wanted.items()]
+        tasks = [(term, point, size) for term, (point, sizes) in wanted.items() for size in sizes]
+        self._enter("hopeful effects where they were fitted", len(tasks) * self._sharpened)
+        points = [self._point(self.model.own_point(p).base, {t: (s,)}) for t, p, s in tasks]
         found = self._runs([(p, self._sharpened) for p in points])
-        for runs, (term, (point, strength)) in zip(found, wanted.items()):
+        for runs, (term, point, size) in zip(found, tasks):
             if runs is not None:
-                self.surface.add(term, strength, runs.mean(axis=0), self.model.own_point(point).base, self._sharpened)
+                self.surface.add(term, size, runs.mean(axis=0), self.model.own_point(point).base, self._sharpened)
                 self._scatter_of(runs)
         return True
 
-    def _is_far(self, term: Term, explanation: Explanation) -> bool:
-        strength = explanation.fit.point.terms[term][0]
-        return abs(strength) > 1e-9 and not self.surface.has_near(term, strength, self._sharpened)
+    def _sizes(self, term: Term, strength: float) -> list[float]:
+        """Where a hopeful effect is to be simulated that was not yet, from so many starts."""
+        wanted = fitted_sizes(strength, self.surface.strengths(term), term.parameters[0])
+        return [s for s in wanted if not self.surface.has_near(term, s, self._sharpened)]
 
     def confirm(self, outcome: Outcome) -> None:
         """Several starts at the best explanation: what it really gives, and its scatter."""

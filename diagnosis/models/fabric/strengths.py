@@ -7,21 +7,49 @@ curvature of the fit tells the strength more sharply than the recordings do.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
 from scipy.stats import chi2
 
 from cosim.unit.protocol import Array
+from diagnosis.models.fabric.surface import is_near
 from diagnosis.search.problem import TermParameter
 
 #: Shares of the fitted strength at which an effect is simulated too, downwards and upwards from it.
 LESS, MORE = (0.5, 0.25, 0.0), (2.0, 4.0)
 #: Rise of -2 log likelihood at the ends of a 95 % interval of one number.
 RISE = float(chi2.ppf(0.95, 1))
+#: Strength that is none.
+LEAST = 1e-9
 #: Standard errors of a mean over starts by which it may lie too high.
 ERRORS = 2.0
+
+
+def fitted_sizes(strength: float, known: Sequence[float], parameter: TermParameter) -> list[float]:
+    """Strengths at which an effect that was fitted is simulated: as fitted, and at its largest if that is beyond all.
+
+    A straight line through smaller strengths does not know what lies beyond them: a coil that stays cold may let its
+    link stop elsewhere than one that is heated by a third.
+
+    Args:
+        strength: The fitted one.
+        known: At which it was simulated.
+        parameter: Of the effect, for its bounds and the largest size that is believed.
+
+    >>> from diagnosis.search.problem import TermParameter
+    >>> share = TermParameter("heat_loss", "1", 0.0, 1.0, (0.6,), plausible=1.0)
+    >>> fitted_sizes(0.7, [0.6], share), fitted_sizes(0.5, [0.6], share), fitted_sizes(0.9, [0.6], share)
+    ([0.7, 1.0], [0.5], [0.9])
+    """
+    if abs(strength) <= LEAST:
+        return []
+    bound = parameter.upper if strength > 0.0 else parameter.lower
+    largest = float(np.copysign(min(parameter.plausible, abs(bound)), strength))
+    is_beyond = all(abs(strength) > abs(k) for k in known if k * strength > 0.0)
+    is_larger = abs(largest) > abs(strength) and not is_near(strength, largest)
+    return [strength, largest] if is_beyond and is_larger else [strength]
 
 
 def next_sizes(strength: float, misfits: Mapping[float, Array], parameter: TermParameter) -> list[float]:

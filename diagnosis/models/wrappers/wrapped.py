@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from cosim.scenario import Scenario
 from cosim.unit.protocol import AnyArray, Array
 from diagnosis.models.answers import Answers
-from diagnosis.models.protocol import DiagnosisModel, Effect, RecordedRun, Scaled, Spot, unscaled
+from diagnosis.models.protocol import DiagnosisModel, Effect, RecordedRun, Scaled, Scatter, Spot, unscaled
 from diagnosis.models.timeline import Timeline
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Layout, Parameter, Point, Term, refined, strength_slopes
@@ -202,11 +202,11 @@ class WrappedModel:
         """None: the points of such an outcome would be those of the inner model."""
         return None
 
-    def scatter(self) -> Mapping[str, float]:
+    def scatter(self) -> Scatter:
         """See `DiagnosisModel`."""
         return self.inner.scatter()
 
-    def take_scatter(self, scatter: Mapping[str, float]) -> None:
+    def take_scatter(self, scatter: Scatter) -> None:
         """See `DiagnosisModel`."""
         self.inner.take_scatter(scatter)
 
