@@ -59,18 +59,37 @@ def search_with_model_error(
     """
     outcome = search(model, model.terms(), settings, model.groups(), on_progress)
     factor = pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
-    if factor.max() <= BELIEVED:
-        return outcome, model
     try:
         with may_be_left():
+            if factor.max() <= BELIEVED:
+                return _with_fewer_terms(model, outcome, settings, on_progress), model
             if model.can_be_searched_again:
                 outcome = _with_few_terms(model, outcome, settings, on_progress)
                 if outcome.best is outcome.few:
                     return outcome, model
             return _searched_again(model, outcome, factor, settings, on_progress)
     except TimeIsOver:  # what was found stands, with errors as large as it leaves
+        if factor.max() <= BELIEVED:
+            return outcome, model
         found = QuasiLikelihoodModel(LawsOnly(model), factor)
         return replace(refitted(found, outcome), first=outcome), found
+
+
+def _with_fewer_terms(
+    model: DiagnosisModel, outcome: Outcome, settings: Settings, on_progress: Callable[[str], None]
+) -> Outcome:
+    """The outcome, or fewer terms in the place of several laws some of which have no name, where these are more
+    probable.
+
+    Each may bend towards a part of one law that the library has not, at other places than where it acts.
+    """
+    laws = outcome.best.fit.point.lasting.terms
+    if len(laws) < 2 or all(t.is_named for t in laws) or not model.can_be_searched_again:
+        return outcome
+    other = _with_few_terms(model, outcome, settings, on_progress)
+    few = other.best
+    is_better = len(few.terms) < len(outcome.best.terms) and few.demerit < outcome.best.demerit
+    return other if is_better else replace(outcome, few=other.few)
 
 
 def _with_few_terms(

@@ -198,6 +198,49 @@ def test_where_one_or_two_terms_leave_more_than_noise_they_are_not_taken() -> No
     assert RIPPLE not in outcome.best.terms
 
 
+BENT = replace(BEND, identifier="bent", is_named=False)
+WHOLE = replace(WAVE, identifier="whole", is_completing=True)
+
+
+class Halves(Rig):
+    """One law that completes is a bend and a wave at once; either has a law, with a name or without."""
+
+    laws: tuple[Term, ...] = (BENT, WAVE, WHOLE)
+
+    def terms(self) -> list[Term]:
+        return list(self.laws)
+
+    def signal(self, point: Point) -> np.ndarray:
+        terms: dict[Term, tuple[float, ...]] = {}
+        for term, values in point.terms.items():
+            for part in {"bent": (BEND,), "wave": (WAVE,), "whole": (BEND, WAVE)}.get(term.identifier, (term,)):
+                terms[part] = (terms.get(part, (0.0,))[0] + values[0],)
+        return super().signal(Point(point.base, terms))
+
+
+def halves(wave: float, laws: tuple[Term, ...] = Halves.laws) -> Halves:
+    found = Halves(0.3 + 0.5 * TIME + 3.0 * TIME**2 + wave * np.sin(25.0 * TIME), seed=1)
+    found.laws = laws
+    return found
+
+
+def test_one_term_that_explains_what_two_laws_without_a_name_do_stands_in_their_place() -> None:
+    assert len(search(halves(3.0), [BENT, WAVE], Settings()).best.terms) == 2
+    outcome, model = search_with_model_error(halves(3.0), Settings())
+    assert isinstance(model, Halves)
+    assert list(outcome.best.terms) == [WHOLE]
+    assert outcome.best.fit.point.terms[WHOLE][0] == pytest.approx(3.0, abs=0.1)
+    assert outcome.left.is_noise
+
+
+@pytest.mark.parametrize(
+    ("wave", "laws"), [(2.0, (BENT, WAVE, WHOLE)), (3.0, (BEND, replace(WAVE, is_named=True), WHOLE))]
+)
+def test_laws_stand_that_one_term_does_not_explain_and_those_with_names(wave: float, laws: tuple[Term, ...]) -> None:
+    outcome, _ = search_with_model_error(halves(wave, laws), Settings())
+    assert set(outcome.best.terms) == set(laws[:2])
+
+
 class Waves(Curves):
     """A straight line, with terms that add a wave each."""
 
