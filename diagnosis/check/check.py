@@ -32,6 +32,7 @@ from diagnosis.check.time_unit import time_unit_doubts
 from diagnosis.check.timing import switch_doubts, timing_doubts
 from diagnosis.check.unfollowed import unfollowed
 from diagnosis.check.unit_of_all import units_of_all
+from diagnosis.check.unit_of_input import unit_of_input
 from diagnosis.check.unit_of_one import units_of_one
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.judge.doubts import without_consequences
@@ -103,7 +104,8 @@ def _odd(doubt: Doubt, every: Sequence[Compared], is_told: bool) -> Doubt:
     gain = gain_of_one(one, others)
     if gain is not None and gain.is_serious:
         return gain
-    return other_course(one, others) or other_number(one, others) or gain or doubt
+    course = unit_of_input(one, others) or other_course(one, others)
+    return course or other_number(one, others) or gain or doubt
 
 
 def _relation(one: Compared, others: Sequence[Compared]) -> list[Doubt]:

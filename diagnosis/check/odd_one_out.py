@@ -7,6 +7,7 @@ them, the readings need not show.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -150,13 +151,18 @@ def comparable(one: Compared) -> dict[str, Beside]:
 
 
 def left(beside: Beside, simulated: Array) -> float:
-    """Share of a channel's variance that simulated readings leave, beyond what says nothing."""
+    """Share of a channel's variance that simulated readings leave, beyond what says nothing; infinite of a run that
+    runs away."""
+    if not np.isfinite(simulated).all():
+        return math.inf
     rest = float(np.mean((beside.measured - simulated) ** 2)) - beside.floor**2
     return max(rest, 0.0) / float(np.var(beside.measured))
 
 
 def scaled_left(beside: Beside, simulated: Array) -> float:
     """The same, scaled and shifted as suits best."""
+    if not np.isfinite(simulated).all():
+        return math.inf
     moves = float(np.std(simulated)) > 0.0
     followed = float(np.corrcoef(beside.measured, simulated)[0, 1]) if moves else 0.0
     return max(1.0 - max(followed, 0.0) ** 2 - beside.floor**2 / float(np.var(beside.measured)), 0.0)

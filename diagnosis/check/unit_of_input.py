@@ -1,0 +1,97 @@
+"""A recording that stands out, one of whose recorded inputs is in another unit than it states.
+
+Where the scenario meets the other recordings and not this one, the numbers of each of its columns of inputs are read in
+every other unit of their quantity. What then explains every channel as well as the others are explained is what to
+look at first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import closing
+from dataclasses import replace
+
+import numpy as np
+
+from cosim.run import RunStopped
+from cosim.unit.quantity import conversion, parse_unit
+from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.input_runs import InputRuns, is_quick, readings_of
+from diagnosis.check.odd_one_out import comparable, left
+from diagnosis.check.timing import percent
+from diagnosis.check.unit_of_one import OF_ONE, UNITS
+from diagnosis.judge.diagnosis import Doubt
+from diagnosis.recording.recording import Input
+
+#: How many times what the others leave a recording may leave that is explained, and what is explained in any case.
+ALIKE, SAME = 2.0, 1e-3
+#: How many times more the unit that is stated leaves.
+WORSE = 4.0
+#: Units beyond which they say nothing.
+MOST = 2
+
+
+def unit_of_input(one: Compared, others: Sequence[Compared]) -> Doubt | None:
+    """A doubt about the unit of one recorded input; None where no unit of a single input explains the recording.
+
+    Args:
+        one: A recording that stands out (`diagnosis.check.odd_one_out`).
+        others: The other recordings of the same rig, which the scenario meets.
+    """
+    channels = comparable(one)
+    if one.base is None or not one.recording.inputs or not channels or not is_quick(one.scenario):
+        return None
+    theirs = max((left(b, b.simulated_there) for o in others for b in comparable(o).values()), default=1.0)
+    before = max(left(b, b.simulated_there) for b in channels.values())
+    enough = max(ALIKE * theirs, SAME)
+    if before < WORSE * enough:
+        return None
+    with closing(InputRuns(one)) as runs:
+        found = [(i, u, rest) for i in one.recording.inputs for u, rest in _each(runs, channels, i) if rest <= enough]
+    if not 0 < len(found) <= MOST or len({(i.component, i.output) for i, _, _ in found}) > 1:
+        return None
+    return _doubt(one, found[0][0], [u for _, u, _ in found], before, max(rest for *_, rest in found))
+
+
+def _each(runs: InputRuns, channels: dict[str, Beside], given: Input) -> Iterator[tuple[str, float]]:
+    """Every other unit of an input, with the largest share of a channel's variance that is left with it."""
+    for unit in other_units(given.unit):
+        factor, offset = conversion(unit, given.unit)
+        try:
+            results = runs.results((replace(given, values=factor * given.values + offset),))
+        except RunStopped:
+            continue
+        yield unit, max(left(b, readings_of(results, b, runs.one)) for b in channels.values())
+
+
+def other_units(stated: str) -> list[str]:
+    """Units of the quantity of a unit that are others than it; none of a unit of no known quantity.
+
+    >>> other_units("km/h")[:3]
+    ['m/s', 'mm/s', 'mph']
+    """
+    quantity = parse_unit(stated).dimensionality
+    alike = [base for base in OF_ONE | UNITS if parse_unit(base).dimensionality == quantity]
+    # a torque and a work have one dimension, and other units
+    own = [base for base in alike if stated in _units(base)] or alike
+    every = dict.fromkeys(unit for base in own for unit in _units(base))
+    return [unit for unit in every if not np.allclose(conversion(unit, stated), (1.0, 0.0), rtol=1e-9, atol=1e-12)]
+
+
+def _units(base: str) -> tuple[str, ...]:
+    return (*UNITS.get(base, ()), *OF_ONE.get(base, ()), base)
+
+
+def _doubt(one: Compared, given: Input, units: Sequence[str], before: float, rest: float) -> Doubt:
+    name = f"{given.component}.{given.output}"
+    text = (
+        f"the scenario explains as little as {percent(max(1.0 - before, 0.0))} of the variance of a channel of this "
+        f"recording; with its column of {name} in {' or '.join(units)} and not in {given.unit} at least "
+        f"{percent(1.0 - rest)} of each channel's, about as much as in the other recordings"
+    )
+    remedy = (
+        f"in what was this column logged? Correct `inputs.{name}.unit` of this recording, or state under `overrides` "
+        "what was another in it"
+    )
+    z = float(np.sqrt(before / max(rest, 1e-12)))
+    return Doubt(one.recording.title, name, "unit", text, remedy, True, one.begin, one.end, z)
