@@ -111,6 +111,7 @@ def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
             yield _of_scale(one, name, *scales)
             continue
         near = units_near(ratio, stated, base, more=OF_ONE.get(base, ()))
+        near = [unit for unit in near if _is_level_nearer(one.channels[name], stated, unit)]
         if not near:
             continue
         text = (
@@ -120,6 +121,21 @@ def _of_channel(every: Sequence[Compared], name: str) -> Iterator[Doubt]:
         remedy = f"is `channels.{name}.unit` of this recording right?"
         z = abs(float(np.log(ratio))) / NEAR
         yield Doubt(one.recording.title, name, "unit", text, remedy, True, one.begin, one.end, z)
+
+
+def _is_level_nearer(beside: Beside, stated: str, unit: str) -> bool:
+    """Whether readings in a unit with another zero lie nearer to the simulation than in the stated one.
+
+    A rig that is warmed 1.8 times as much reads no degF: its zero is where it was. Units of one zero tell nothing more.
+    """
+    factor, zero = conversion(unit, stated)
+    if zero == 0.0:
+        return True
+    slope, base_zero = conversion(stated, beside.channel.unit)
+    numbers = (beside.measured - base_zero) / slope
+    level = float(np.mean(beside.simulated_there))
+    other = float(np.mean(slope * (factor * numbers + zero) + base_zero))
+    return abs(other - level) < abs(float(np.mean(beside.measured)) - level)
 
 
 def _scale_of_one(beside: Beside, others: Sequence[tuple[Beside, float]], ratio: float) -> tuple[str, str] | None:

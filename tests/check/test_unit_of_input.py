@@ -55,8 +55,9 @@ def test_a_diagnosis_says_it_and_searches_nothing(tmp_path: Path) -> None:
     assert "in Btu/h and not in W" in found.statement
 
 
-@pytest.mark.parametrize("level", [1.0, 1.3])
+@pytest.mark.parametrize("level", [1.0, 1.3, 1.8])
 def test_a_heater_that_is_stronger_by_the_factor_to_no_unit_is_in_no_other_unit(tmp_path: Path, level: float) -> None:
+    """1.8 is a factor of thermometers in degF, whose zero is another too."""
     assert not [d for d in _doubts(tmp_path, _recordings(tmp_path, "W", level)) if d.kind == "unit"]
 
 
