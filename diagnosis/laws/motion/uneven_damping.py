@@ -12,6 +12,8 @@ LAW = Law(
     ),
     source="shock absorbers: Dixon, The Shock Absorber Handbook, Wiley 2007, chapter 5",
     confused_with={
+        "one_sided_damping_of_forward_motion": "the damping that is stated decides: of one direction, or on average",
+        "one_sided_damping_of_backward_motion": "the damping that is stated decides: of one direction, or on average",
         "quadratic_spring": "fast and slow motion over the same way decide",
         "constant_force": "rest decides: there a damper does nothing",
     },
