@@ -78,17 +78,19 @@ def search_with_model_error(
 def _with_fewer_terms(
     model: DiagnosisModel, outcome: Outcome, settings: Settings, on_progress: Callable[[str], None]
 ) -> Outcome:
-    """The outcome, or fewer terms in the place of several laws some of which have no name, where these are more
+    """The outcome, or fewer terms in the place of several, a law without a name among them, where these are more
     probable.
 
-    Each may bend towards a part of one law that the library has not, at other places than where it acts.
+    Each may bend towards a part of one law that the library has not, at other places than where it acts; and so may a
+    fault beside a law.
     """
-    laws = outcome.best.fit.point.lasting.terms
-    if len(laws) < 2 or all(t.is_named for t in laws) or not model.can_be_searched_again:
+    terms = outcome.best.terms
+    is_named = all(t.is_named for t in outcome.best.fit.point.lasting.terms)
+    if len(terms) < 2 or is_named or not model.can_be_searched_again:
         return outcome
     other = _with_few_terms(model, outcome, settings, on_progress)
     few = other.best
-    is_better = len(few.terms) < len(outcome.best.terms) and few.demerit < outcome.best.demerit
+    is_better = len(few.terms) < len(terms) and few.demerit < outcome.best.demerit
     return other if is_better else replace(outcome, few=other.few)
 
 

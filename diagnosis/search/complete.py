@@ -10,6 +10,7 @@ Readings that it was not fitted to judge each of them (`diagnosis.judge.acceptan
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 from cosim.compute.steps import counted
 from diagnosis.search.explanation import Explanation, Settings
@@ -26,9 +27,26 @@ MOST, MOST_SLOW, TRIED = 8, 4, 3
 #: Terms that stay in the queue, those that promised most before (J. H. Friedman, Fast MARS, Stanford University,
 #: Department of Statistics, Technical Report 110, 1993, section 3).
 QUEUED = 80
-#: Terms in the place of all laws, as a shape that no law has rises and falls; and best-scored ones that are fitted for
-#: each: what a straight line promises of knots far from where they belong says little.
-FEW, FITTED = 2, 16
+#: Terms in the place of all laws, as a shape that no law has rises and falls; best-scored ones that are begun for each,
+#: what a straight line promises of knots far from where they belong says little; and how many of these are fitted to
+#: the end: a knot begins far from its place, and arrives late.
+FEW, FITTED, FINISHED = 2, 16, 8
+
+
+@dataclass(frozen=True)
+class Breadth:
+    """How widely terms are looked for.
+
+    Args:
+        most: Terms that are added at most.
+        tried: Best-scored ones that are begun for each.
+        finished: How many of these are fitted to the end before one is taken; with several, each is begun from both of
+            its best shapes.
+    """
+
+    most: int
+    tried: int
+    finished: int = 1
 
 
 def by_few_terms(
@@ -53,7 +71,8 @@ def by_few_terms(
     """
     pool = _at_places(model, base, terms, terms, settings)
     said = _told(on_progress, "trying one or two terms alone")
-    return shrink(model, _with_more(model, Explanation(base), pool, settings, margin, said, (FEW, FITTED)), margin)
+    breadth = Breadth(FEW, FITTED, FINISHED)
+    return shrink(model, _with_more(model, Explanation(base), pool, settings, margin, said, breadth), margin)
 
 
 def completed(
@@ -79,7 +98,7 @@ def completed(
     generic = [t for t in terms if not t.is_named]
     pool = _at_places(model, explanation.fit, terms, generic, settings) if generic else []
     said = _told(on_progress, "describing what is left by generic terms")
-    return _with_more(model, explanation, pool, settings, margin, said, (most, TRIED))
+    return _with_more(model, explanation, pool, settings, margin, said, Breadth(most, TRIED))
 
 
 def _with_more(
@@ -89,24 +108,33 @@ def _with_more(
     settings: Settings,
     margin: float,
     on_progress: Callable[[int], None],
-    breadth: tuple[int, int],
+    breadth: Breadth,
 ) -> Explanation:
-    """The explanation with terms of a pool, forwards; `breadth`: how many at most, and how many are fitted for each."""
-    current, (most, tried) = explanation, breadth
-    for number in range(most if pool else 0):
+    """The explanation with terms of a pool, forwards."""
+    current = explanation
+    for number in range(breadth.most if pool else 0):
         on_progress(number)
         ranked = _scored(model, current.fit, pool, settings)
         pool = [s.term for s in ranked[:QUEUED]]
-        hopeful = [s for s in ranked if s.gain > HOPEFUL * margin][:tried]
-        trials = [fitted_with(model, current.fit, s) for s in counted(hopeful, "generic terms fitted")]
+        hopeful = [s for s in ranked if s.gain > HOPEFUL * margin][: breadth.tried]
+        trials = [_begun(model, current.fit, s, breadth) for s in counted(hopeful, "generic terms fitted")]
         if not trials:
             break
-        trial = min(trials, key=lambda f: f.cost)
-        grown = Explanation(fit(model, trial.point, STEPS, trial))
+        best = sorted(trials, key=lambda f: f.cost)[: breadth.finished]
+        grown = min((Explanation(fit(model, f.point, STEPS, f)) for f in best), key=lambda e: e.demerit)
         if current.cost - grown.cost <= margin or grown.is_negligible:
             break
         current = grown
     return Explanation(fit(model, current.fit.point, widths=explanation.fit.widths))
+
+
+def _begun(model: Model, before: Fit, candidate: Score, breadth: Breadth) -> Fit:
+    """Some steps of a fit with a term more, from the best of its shapes, and from the second best if it is asked."""
+    first = fitted_with(model, before, candidate)
+    if candidate.second is None or breadth.finished == 1:
+        return first
+    second = fitted_with(model, before, replace(candidate, values=candidate.second, second=None))
+    return min(first, second, key=lambda f: f.cost)
 
 
 def _told(on_progress: Callable[[str], None], what: str) -> Callable[[int], None]:
