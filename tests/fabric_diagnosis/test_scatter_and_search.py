@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from diagnosis.models.fabric.mechanical import MechanicalModel
 from diagnosis.models.fabric.scatter import FEWEST, Bins, Whitening, calibrated_scatter, scatter_covariance
+from diagnosis.models.fabric.search import _Plan
 from diagnosis.models.fabric.surface import Surface
 from diagnosis.search.problem import Parameter, Point, Term, TermParameter
-from diagnosis.search.search import Settings, search
+from diagnosis.search.search import Explanation, Settings, search
 
 CHANNELS, TIMES = 10, 12
 CHANNEL = np.tile(np.arange(CHANNELS), TIMES)
@@ -160,3 +163,23 @@ def test_channels_that_contacts_move_at_once_tell_less() -> None:
     assert 1.0 <= apart < 2.0  # correlations of eight draws are no more than chance, and half of them is left
     assert alike > 2.0 * apart
     assert alike < CHANNELS
+
+
+def test_how_a_rival_scatters_says_nothing_of_what_is_found() -> None:
+    """A link that snaps with one law and not with another made both as uncertain as the one that snaps."""
+    found, rival = (Explanation(SimpleNamespace(point=Point(np.zeros(1), {t: (1.0,)}))) for t in TERMS[:2])
+    added: list[Term] = []
+    counted: list[float] = []
+    plan: Any = object.__new__(_Plan)
+    plan.model = SimpleNamespace(laws=lambda: TERMS, own_point=lambda point: point)
+    plan.surface = SimpleNamespace(add=lambda term, *rest: added.append(term), strengths=lambda term: [])
+    plan.surface.has_near = lambda term, size, starts: False
+    plan._sharpened = 2
+    plan._network_point = Point(np.zeros(0))
+    plan._enter = lambda stage, count: None
+    plan._hopeful_of = lambda outcome: [found, rival]
+    plan._runs = lambda points: [np.full((2, 3), next(iter(p.terms.values()))[0]) for p, _ in points]
+    plan._scatter_of = lambda runs: counted.append(float(runs[0, 0]))
+    assert plan.sharpen(SimpleNamespace(best=found), 4)
+    assert added == [TERMS[0], TERMS[0], TERMS[1], TERMS[1]]  # as fitted, and at the largest
+    assert len(counted) == 2

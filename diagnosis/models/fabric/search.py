@@ -126,6 +126,7 @@ class _Plan:
         self._network_point = Point(np.zeros(model.first_own))
         self._size, self._repeats, self._confirmed = effort.ensemble, effort.repeats, effort.confirmed
         self._hopeful, self._asked_elsewhere = effort.hopeful, effort.others
+        self._has_links = effort.has_links
         self._first = [t for t in model.laws() if effort.has_links or self._is_wide(t)]
         self._sharpened = self._confirmed if self._repeats > 1 else 1
         effects = self._repeats * len(model.free) + sum(
@@ -218,9 +219,11 @@ class _Plan:
                 self.surface.slopes[i] = (bins - self.surface.mean) / STEP
         for (term, strength), bins in zip(tasks, found[count:]):
             self._take(term, strength, bins)
-        wide = [(t, s) for t, s in tasks if t not in self.model.link_places and not self.surface.knows(t)]
+        wide = [(t, s) for t, s in tasks if t not in self.model.link_places]
+        if not self._has_links:  # a run takes long
+            wide = [(t, s) for t, s in wide if not self.surface.knows(t)]
         larger = [(t, float(np.copysign(min(t.parameters[0].plausible, t.parameters[0].upper), s))) for t, s in wide]
-        self._enter_more("effects that hardly show, at their largest", self._repeats * len(larger))
+        self._enter_more("effects of all links, at their largest", self._repeats * len(larger))
         for (term, strength), bins in zip(
             larger, self._means([(self._point(np.zeros(count), {t: (s,)}), self._repeats) for t, s in larger])
         ):
@@ -398,7 +401,8 @@ class _Plan:
         for runs, (term, point, size) in zip(found, tasks):
             if runs is not None:
                 self.surface.add(term, size, runs.mean(axis=0), self.model.own_point(point).base, self._sharpened)
-                self._scatter_of(runs)
+                if term in outcome.best.terms:  # how a rival scatters says nothing of what is found
+                    self._scatter_of(runs)
         return True
 
     def _sizes(self, term: Term, strength: float) -> list[float]:
