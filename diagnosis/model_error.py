@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial, reduce
 
@@ -59,18 +60,16 @@ def search_with_model_error(
     """
     outcome = search(model, model.terms(), settings, model.groups(), on_progress)
     factor = pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
+    if factor.max() <= BELIEVED:
+        return _with_fewer_terms(model, outcome, settings, on_progress), model
     try:
         with may_be_left():
-            if factor.max() <= BELIEVED:
-                return _with_fewer_terms(model, outcome, settings, on_progress), model
             if model.can_be_searched_again:
                 outcome = _with_few_terms(model, outcome, settings, on_progress)
                 if outcome.best is outcome.few:
                     return outcome, model
             return _searched_again(model, outcome, factor, settings, on_progress)
     except TimeIsOver:  # what was found stands, with errors as large as it leaves
-        if factor.max() <= BELIEVED:
-            return outcome, model
         found = QuasiLikelihoodModel(LawsOnly(model), factor)
         return replace(refitted(found, outcome), first=outcome), found
 
@@ -88,10 +87,11 @@ def _with_fewer_terms(
     is_named = all(t.is_named for t in outcome.best.fit.point.lasting.terms)
     if len(terms) < 2 or is_named or not model.can_be_searched_again:
         return outcome
-    other = _with_few_terms(model, outcome, settings, on_progress)
-    few = other.best
-    is_better = len(few.terms) < len(terms) and few.demerit < outcome.best.demerit
-    return other if is_better else replace(outcome, few=other.few)
+    with suppress(TimeIsOver), may_be_left():
+        other = _with_few_terms(model, outcome, settings, on_progress)
+        is_better = len(other.best.terms) < len(terms) and other.best.demerit < outcome.best.demerit
+        return other if is_better else replace(outcome, few=other.few)
+    return outcome
 
 
 def _with_few_terms(

@@ -104,8 +104,7 @@ def _odd(doubt: Doubt, every: Sequence[Compared], is_told: bool) -> Doubt:
     gain = gain_of_one(one, others)
     if gain is not None and gain.is_serious:
         return gain
-    course = unit_of_input(one, others) or other_course(one, others)
-    return course or other_number(one, others) or gain or doubt
+    return unit_of_input(one, others) or other_course(one, others) or other_number(one, others) or gain or doubt
 
 
 def _relation(one: Compared, others: Sequence[Compared]) -> list[Doubt]:

@@ -8,7 +8,7 @@ them, the readings need not show.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,6 +27,8 @@ TIMES, LEAST = 10.0, 0.01
 #: Share of the variance of a channel that is left, scaled and shifted as suits best, of a recording one of whose
 #: inputs hardly is the one that acted: the same numbers explain the others.
 HALF = 0.5
+#: How many times what the others leave a recording may leave that is explained, and what is explained in any case.
+ALIKE, SAME = 2.0, 1e-3
 #: Share of the range of the others by which a recording may go beyond it, and how much faster it may change.
 BEYOND, FASTER = 0.5, 2.0
 #: Other recordings that have to be met: one alone may be the odd one itself.
@@ -166,3 +168,18 @@ def scaled_left(beside: Beside, simulated: Array) -> float:
     moves = float(np.std(simulated)) > 0.0
     followed = float(np.corrcoef(beside.measured, simulated)[0, 1]) if moves else 0.0
     return max(1.0 - max(followed, 0.0) ** 2 - beside.floor**2 / float(np.var(beside.measured)), 0.0)
+
+
+def most_left(channels: Iterable[Beside], share: Callable[[Beside, Array], float]) -> float:
+    """Largest share of a channel's variance that the scenario as it is leaves; 1 of no channel.
+
+    Args:
+        channels: Of one recording, or of several.
+        share: `left` or `scaled_left`.
+    """
+    return max((share(b, b.simulated_there) for b in channels), default=1.0)
+
+
+def as_explained(theirs: float) -> float:
+    """What a recording may leave that is explained as well as others which leave so much."""
+    return max(ALIKE * theirs, SAME)

@@ -29,7 +29,7 @@ from cosim.unit.protocol import Array
 from cosim.unit.quantity import parse_unit
 from diagnosis.check.beside import Beside, Compared, Course
 from diagnosis.check.input_runs import InputRuns, given_as, is_quick, of_one_element, parts_of
-from diagnosis.check.odd_one_out import comparable, left, scaled_left
+from diagnosis.check.odd_one_out import comparable, left, most_left, scaled_left
 from diagnosis.check.pause import NOTHING, STAYED, Pause, paused
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
@@ -70,7 +70,7 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     channels = comparable(one)
     if one.base is None or not is_quick(one.scenario) or len(channels) < CHANNELS:
         return None
-    if max(left(b, b.simulated_there) for b in channels.values()) < MISSED:
+    if most_left(channels.values(), left) < MISSED:
         return None
     with closing(InputRuns(one)) as runs:
         return _asked(runs, others, channels)
@@ -90,7 +90,7 @@ def _asked(runs: InputRuns, others: Sequence[Compared], channels: dict[str, Besi
             found.append((course, *told))
     asked = [course for course, *_ in found] or (courses if one.scenario.time.macro_steps <= MOST_PAUSES else [])
     pauses = [pause for course in asked for pause in _pauses(runs, channels, course)]
-    as_stated = max(scaled_left(b, b.simulated_there) for b in channels.values())
+    as_stated = most_left(channels.values(), scaled_left)
     pauses = [p for p in pauses if p.left < min(1.0 - MET, as_stated / PAUSED)]
     if pauses:
         return _of_pause(one, channels, min(pauses, key=lambda p: p.left))

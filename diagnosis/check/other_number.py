@@ -20,7 +20,7 @@ from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.input_runs import is_quick, readings_of
-from diagnosis.check.odd_one_out import comparable, is_within, scaled_left
+from diagnosis.check.odd_one_out import as_explained, comparable, is_within, most_left, scaled_left
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
@@ -35,8 +35,6 @@ FARTHEST = 10.0
 FACTORS = (1.1, 1.5, 3.0, FARTHEST)
 #: Accuracy of ln(factor).
 EXACT = 1e-3
-#: How many times what the others leave a recording may leave that is explained, and what is explained in any case.
-ALIKE, SAME = 2.0, 1e-3
 #: Numbers that explain a recording beyond which they say nothing.
 MOST = 3
 
@@ -65,9 +63,8 @@ def other_number(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     channels = comparable(one)
     if not is_quick(one.scenario) or len(channels) < CHANNELS:
         return None
-    theirs = max((scaled_left(b, b.simulated_there) for o in others for b in comparable(o).values()), default=1.0)
-    before = max(scaled_left(b, b.simulated_there) for b in channels.values())
-    enough = max(ALIKE * theirs, SAME)
+    theirs = most_left((b for o in others for b in comparable(o).values()), scaled_left)
+    before, enough = most_left(channels.values(), scaled_left), as_explained(theirs)
     if before <= enough:
         return None
     try:

@@ -14,17 +14,15 @@ from dataclasses import replace
 import numpy as np
 
 from cosim.run import RunStopped
-from cosim.unit.quantity import conversion, parse_unit
+from cosim.unit.quantity import conversion
 from diagnosis.check.beside import Beside, Compared
-from diagnosis.check.input_runs import InputRuns, is_quick, readings_of
-from diagnosis.check.odd_one_out import comparable, left
+from diagnosis.check.input_runs import InputRuns, is_quick, parts_of
+from diagnosis.check.odd_one_out import as_explained, comparable, left, most_left
 from diagnosis.check.timing import percent
-from diagnosis.check.unit_of_one import OF_ONE, UNITS
+from diagnosis.check.unit_of_one import other_units
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Input
 
-#: How many times what the others leave a recording may leave that is explained, and what is explained in any case.
-ALIKE, SAME = 2.0, 1e-3
 #: How many times more the unit that is stated leaves.
 WORSE = 4.0
 #: Units beyond which they say nothing.
@@ -41,9 +39,8 @@ def unit_of_input(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     channels = comparable(one)
     if one.base is None or not one.recording.inputs or not channels or not is_quick(one.scenario):
         return None
-    theirs = max((left(b, b.simulated_there) for o in others for b in comparable(o).values()), default=1.0)
-    before = max(left(b, b.simulated_there) for b in channels.values())
-    enough = max(ALIKE * theirs, SAME)
+    theirs = most_left((b for o in others for b in comparable(o).values()), left)
+    before, enough = most_left(channels.values(), left), as_explained(theirs)
     if before < WORSE * enough:
         return None
     with closing(InputRuns(one)) as runs:
@@ -58,28 +55,10 @@ def _each(runs: InputRuns, channels: dict[str, Beside], given: Input) -> Iterato
     for unit in other_units(given.unit):
         factor, offset = conversion(unit, given.unit)
         try:
-            results = runs.results((replace(given, values=factor * given.values + offset),))
+            readings = runs.readings(channels, (replace(given, values=factor * given.values + offset),))
         except RunStopped:
             continue
-        yield unit, max(left(b, readings_of(results, b, runs.one)) for b in channels.values())
-
-
-def other_units(stated: str) -> list[str]:
-    """Units of the quantity of a unit that are others than it; none of a unit of no known quantity.
-
-    >>> other_units("km/h")[:3]
-    ['m/s', 'mm/s', 'mph']
-    """
-    quantity = parse_unit(stated).dimensionality
-    alike = [base for base in OF_ONE | UNITS if parse_unit(base).dimensionality == quantity]
-    # a torque and a work have one dimension, and other units
-    own = [base for base in alike if stated in _units(base)] or alike
-    every = dict.fromkeys(unit for base in own for unit in _units(base))
-    return [unit for unit in every if not np.allclose(conversion(unit, stated), (1.0, 0.0), rtol=1e-9, atol=1e-12)]
-
-
-def _units(base: str) -> tuple[str, ...]:
-    return (*UNITS.get(base, ()), *OF_ONE.get(base, ()), base)
+        yield unit, max(left(b, part) for b, part in zip(channels.values(), parts_of(channels, readings)))
 
 
 def _doubt(one: Compared, given: Input, units: Sequence[str], before: float, rest: float) -> Doubt:

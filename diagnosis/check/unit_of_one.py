@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from cosim.unit.quantity import conversion
+from cosim.unit.quantity import PhysicalValue, conversion, parse_unit
 from diagnosis.check import scale
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.judge.diagnosis import Doubt
@@ -128,14 +128,12 @@ def _is_level_nearer(beside: Beside, stated: str, unit: str) -> bool:
 
     A rig that is warmed 1.8 times as much reads no degF: its zero is where it was. Units of one zero tell nothing more.
     """
-    factor, zero = conversion(unit, stated)
-    if zero == 0.0:
+    if conversion(unit, stated)[1] == 0.0:
         return True
-    slope, base_zero = conversion(stated, beside.channel.unit)
-    numbers = (beside.measured - base_zero) / slope
-    level = float(np.mean(beside.simulated_there))
-    other = float(np.mean(slope * (factor * numbers + zero) + base_zero))
-    return abs(other - level) < abs(float(np.mean(beside.measured)) - level)
+    base, level = beside.channel.unit, float(np.mean(beside.simulated_there))
+    mean = float(np.mean(beside.measured))
+    number = PhysicalValue(mean, base).to(stated)
+    return abs(PhysicalValue(number, unit).to(base) - level) < abs(mean - level)
 
 
 def _scale_of_one(beside: Beside, others: Sequence[tuple[Beside, float]], ratio: float) -> tuple[str, str] | None:
@@ -195,6 +193,20 @@ def units_near(ratio: float, stated: str, base: str, near: float = NEAR, more: S
     own = conversion(stated, base)[0]
     factors = {u: own / conversion(u, base)[0] for u in (*UNITS.get(base, ()), *more) if u != stated}
     return [u for u, f in factors.items() if abs(np.log(f)) > LEAST and abs(np.log(ratio / f)) < near]
+
+
+def other_units(stated: str) -> list[str]:
+    """Units of the quantity of a unit that are others than it; none of a unit of no known quantity.
+
+    >>> other_units("km/h")[:3]
+    ['m/s', 'mm/s', 'mph']
+    """
+    quantity = parse_unit(stated).dimensionality
+    bases = [base for base in OF_ONE | UNITS if parse_unit(base).dimensionality == quantity]
+    alike = [(*UNITS.get(base, ()), *OF_ONE.get(base, ()), base) for base in bases]
+    own = [units for units in alike if stated in units] or alike  # a torque and a work have one dimension
+    every = dict.fromkeys(unit for units in own for unit in units)
+    return [unit for unit in every if not np.allclose(conversion(unit, stated), (1.0, 0.0), rtol=1e-9, atol=1e-12)]
 
 
 def slope(beside: Beside) -> float | None:

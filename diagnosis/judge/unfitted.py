@@ -88,16 +88,14 @@ class Readings:
 
     @cached_property
     def scattered(self) -> Array:
-        """Square of the share of the variance of each one that is scatter of the simulation, 0 to 1.
-
-        As many times more as channels scatter together.
-        """
+        """Square of the share of each one's variance that is scatter of the simulation, times more where channels
+        scatter together."""
         together = np.array([c.scatter_together for c in self.channels])
         return np.asarray((self._shares**2 * together)[self.channel])
 
     @cached_property
     def _shares(self) -> Array:
-        """The same by channel."""
+        """Share of the variance of each channel that is scatter of the simulation, shape (channels,)."""
         shares = [min((c.scatter / deviation(c)) ** 2, 1.0) if c.scatter > 0.0 else 0.0 for c in self.channels]
         return np.array(shares, dtype=np.float64)
 

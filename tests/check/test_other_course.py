@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +19,7 @@ from diagnosis.judge.diagnosis import Doubt, Verdict
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import Settings
 from evaluation.fmus.model import OdeModel
-from tests.systems.rigs import held, write_recording
+from tests.systems.rigs import built, held, write_recording
 
 #: Heat capacities of a plate and of a block under it [J/K], conductance between them and from the block [W/K].
 C_1, C_2, G, G_OUT = 400.0, 900.0, 1.2, 0.8
@@ -52,13 +52,21 @@ def _power(seed: int) -> Array:
 
 def _recordings(folder: Path, stated: Sequence[int], names: Sequence[str] = tuple(CHANNELS)) -> list[Path]:
     """Recordings of runs 1, 2 and 3, each with the column of power of the run that is stated."""
-    STACK.build(folder)
-    (folder / "scenario.yaml").write_text(SCENARIO, encoding="utf-8")
-    found = []
-    for run, told in zip((1, 2, 3), stated):
-        rng = np.random.default_rng(100 + run)
-        found.append(recorded(folder / f"run_{run}", _power(told), temperatures(_power(run)), rng, names))
-    return found
+    return recordings_of(folder, lambda run: (_power(stated[run - 1]), temperatures(_power(run))), names)
+
+
+def recordings_of(
+    folder: Path, made: Callable[[int], tuple[Array, Array]], names: Sequence[str] = tuple(CHANNELS)
+) -> list[Path]:
+    """The scenario, and recordings of runs 1, 2 and 3.
+
+    Args:
+        folder: Where they go.
+        made: Number of a run to the column of its power, shape (COUNT,), and its temperatures [K], shape (COUNT, 2).
+        names: Channels that are recorded.
+    """
+    built(STACK, SCENARIO, folder)
+    return [recorded(folder / f"run_{run}", *made(run), np.random.default_rng(100 + run), names) for run in (1, 2, 3)]
 
 
 def temperatures(power: Array) -> Array:

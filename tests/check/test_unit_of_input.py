@@ -2,41 +2,34 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from cosim.run import RunStopped
 from cosim.scenario import load_scenario
+from cosim.unit.protocol import Array
 from cosim.unit.quantity import conversion
 from diagnosis.check import unit_of_input
-from diagnosis.check.check import check_recordings
+from diagnosis.check.beside import Compared, compare
 from diagnosis.check.input_runs import InputRuns
-from diagnosis.check.unit_of_input import other_units
-from diagnosis.diagnose import Options, diagnose
-from diagnosis.judge.diagnosis import Doubt, Verdict
+from diagnosis.check.unit_of_one import other_units
+from diagnosis.judge.diagnosis import Verdict
 from diagnosis.recording.recording import load_recording
-from diagnosis.search.search import Settings
-from tests.check.test_other_course import CHANNELS, SCENARIO, STACK, _power, recorded, temperatures
+from tests.check.test_other_course import _doubts, _power, recordings_of, temperatures
+from tests.systems.rigs import diagnosed
 
 
 def _recordings(folder: Path, logged: str, level: float = 1.0) -> list[Path]:
     """Three runs, the second with its power in a unit that it does not state; it acted `level` times as hard."""
-    STACK.build(folder)
-    (folder / "scenario.yaml").write_text(SCENARIO, encoding="utf-8")
-    found = []
-    for run in (1, 2, 3):
-        rng, power = np.random.default_rng(100 + run), _power(run)
-        acted = temperatures(power * (level if run == 2 else 1.0))
-        column = power * (conversion("W", logged)[0] if run == 2 else 1.0)
-        found.append(recorded(folder / f"run_{run}", column, acted, rng, tuple(CHANNELS)))
-    return found
+    factor = conversion("W", logged)[0]
 
+    def made(run: int) -> tuple[Array, Array]:
+        power = _power(run)
+        return (factor * power, temperatures(level * power)) if run == 2 else (power, temperatures(power))
 
-def _doubts(folder: Path, recordings: list[Path]) -> list[Doubt]:
-    scenario = load_scenario(str(folder / "scenario.yaml"))
-    return list(check_recordings(scenario, [load_recording(r) for r in recordings]))
+    return recordings_of(folder, made)
 
 
 @pytest.mark.parametrize("logged", ["Btu/h", "kcal/h", "mW"])
@@ -49,8 +42,7 @@ def test_a_column_in_another_unit_is_told_with_the_unit(tmp_path: Path, logged: 
 
 def test_a_diagnosis_says_it_and_searches_nothing(tmp_path: Path) -> None:
     every = [load_recording(r) for r in _recordings(tmp_path, "Btu/h")]
-    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
-    found = diagnose(scenario, every[:2], every[2:], Settings(), options=Options(is_brief=True)).diagnosis
+    found = diagnosed(tmp_path / "scenario.yaml", every)
     assert found.verdict is Verdict.RECORDING_FAULT
     assert "in Btu/h and not in W" in found.statement
 
@@ -65,7 +57,7 @@ def test_a_programme_has_no_column(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     recordings = _recordings(tmp_path, "Btu/h")
     (one, *others) = _compared(tmp_path, recordings)
     assert unit_of_input.unit_of_input(one, others) is not None
-    bare = unit_of_input.replace(one, recording=unit_of_input.replace(one.recording, inputs=()))
+    bare = replace(one, recording=replace(one.recording, inputs=()))
     assert unit_of_input.unit_of_input(bare, others) is None
     monkeypatch.setattr(unit_of_input, "MOST", 0)  # too many units explain it
     assert unit_of_input.unit_of_input(one, others) is None
@@ -84,10 +76,8 @@ def test_a_long_run_and_one_that_runs_away_are_not_told(tmp_path: Path, monkeypa
     assert unit_of_input.unit_of_input(one, others) is None
 
 
-def _compared(folder: Path, recordings: list[Path]) -> list[unit_of_input.Compared]:
+def _compared(folder: Path, recordings: list[Path]) -> list[Compared]:
     """The second recording, then the others."""
-    from diagnosis.check.beside import compare
-
     scenario = load_scenario(str(folder / "scenario.yaml"))
     first, second, third = (compare(scenario, load_recording(r)) for r in recordings)
     return [second, first, third]

@@ -16,7 +16,7 @@ from diagnosis.check.unit_of_one import OF_ONE, units_near
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import load_recording
 from evaluation.fmus.model import OdeModel
-from tests.check.test_other_course import CHANNELS, SCENARIO, STACK, _power, recorded, temperatures
+from tests.check.test_other_course import _power, recordings_of, temperatures
 from tests.systems.rigs import held, oscillator, oscillator_recordings, write_recording
 
 
@@ -149,14 +149,11 @@ def test_another_slope_or_zero_alone_is_no_scale(tmp_path: Path, spoil: Callable
 def test_degrees_fahrenheit_have_another_zero_too(
     tmp_path: Path, spoil: Callable[[Array], Array], is_unit: bool
 ) -> None:
-    STACK.build(tmp_path)
-    (tmp_path / "scenario.yaml").write_text(SCENARIO, encoding="utf-8")
-    recordings = []
-    for run in (1, 2, 3):
-        power, rng = _power(run), np.random.default_rng(100 + run)
-        warm = temperatures(power)
+    def made(run: int) -> tuple[Array, Array]:
+        warm = temperatures(_power(run))
         if run == 2:
             warm[:, 0] = spoil(warm[:, 0])
-        recordings.append(recorded(tmp_path / f"run_{run}", power, warm, rng, tuple(CHANNELS)))
-    told = [d for d in doubts(tmp_path, recordings) if d.kind == "unit" and "degF" in d.statement]
+        return _power(run), warm
+
+    told = [d for d in doubts(tmp_path, recordings_of(tmp_path, made)) if d.kind == "unit" and "degF" in d.statement]
     assert [d.subject for d in told] == ["stack.top"] * is_unit

@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from cosim.compute.steps import TimeIsOver
 from diagnosis import model_error
 from diagnosis.model_error import REFITTED, refitted, search_with_model_error
 from diagnosis.models.protocol import Labelled
@@ -239,6 +240,17 @@ def test_one_term_that_explains_what_two_laws_without_a_name_do_stands_in_their_
 def test_laws_stand_that_one_term_does_not_explain_and_those_with_names(wave: float, laws: tuple[Term, ...]) -> None:
     outcome, _ = search_with_model_error(halves(wave, laws), Settings())
     assert set(outcome.best.terms) == set(laws[:2])
+
+
+def test_where_time_is_over_before_one_term_was_tried_laws_stand(monkeypatch: pytest.MonkeyPatch) -> None:
+    def over(*_: object) -> None:
+        raise TimeIsOver
+
+    monkeypatch.setattr(model_error, "by_few_terms", over)
+    outcome, model = search_with_model_error(halves(3.0), Settings())
+    assert isinstance(model, Halves)
+    assert set(outcome.best.terms) == {BENT, WAVE}
+    assert outcome.few is None
 
 
 class Waves(Curves):

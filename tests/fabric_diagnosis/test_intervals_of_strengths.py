@@ -35,12 +35,7 @@ def runs(level: float, scatter: float = 0.0, count: int = 6) -> Array:
         (0.7, [0.4], SHARE, [0.7, 0.9]),  # springs weaker than any that were simulated: left out, too
         (0.3, [0.4], SHARE, [0.3]),  # between simulations a straight line is known at both ends
         (0.85, [0.4], SHARE, [0.85]),  # hardly below the largest, which would say nothing else
-        (
-            -0.1,
-            [0.075, -0.075],
-            ROLL,
-            [-0.1, -0.3],
-        ),  # of the same sign, no farther than is believed
+        (-0.1, [0.075, -0.075], ROLL, [-0.1, -0.3]),  # of the same sign, no farther than is believed
         (0.45, [0.075], ROLL, [0.45]),  # beyond belief already
         (0.0, [0.075], ROLL, []),
     ],

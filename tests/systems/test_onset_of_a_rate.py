@@ -10,8 +10,8 @@ import pytest
 from cosim.unit.protocol import Array
 from diagnosis.judge.diagnosis import Verdict
 from diagnosis.recording.recording import load_recording
-from tests.check.test_other_course import C_1, C_2, CHANNELS, G_OUT, SCENARIO, STACK, STEP, G, _power, recorded
-from tests.systems.rigs import built, diagnosed, held
+from tests.check.test_other_course import C_1, C_2, G_OUT, STEP, G, _power, recordings_of
+from tests.systems.rigs import diagnosed, held
 
 #: Temperature from which it blows [K], and what it takes off [W/K].
 WARM, FAN = 318.0, 1.2
@@ -24,14 +24,13 @@ def _rate(x: Array, u: float) -> Array:
 
 
 def test_it_is_described_at_its_place_with_its_onset_and_stands_alone(tmp_path: Path) -> None:
-    scenario = built(STACK, SCENARIO, tmp_path)
-    recordings = []
-    for run in (1, 2, 3):
+    def made(run: int) -> tuple[Array, Array]:
         warm = held(_rate, np.array([295.0, 295.0]), _power(run), STEP)
         assert (warm[:, 0] > WARM).mean() > 0.1
-        rng = np.random.default_rng(100 + run)
-        recordings.append(recorded(tmp_path / f"run_{run}", _power(run), warm, rng, tuple(CHANNELS)))
-    found = diagnosed(scenario, [load_recording(r) for r in recordings])
+        return _power(run), warm
+
+    recordings = recordings_of(tmp_path, made)
+    found = diagnosed(tmp_path / "scenario.yaml", [load_recording(r) for r in recordings])
     assert found.verdict is Verdict.UNNAMED_PHYSICS
     (finding,) = [f for f in found.findings if f.is_accepted]
     assert (finding.effect, finding.place) == ("rate_spline", "stack.plate")

@@ -12,7 +12,7 @@ from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.models.fabric.mechanical import MechanicalModel
 from diagnosis.models.fabric.scatter import FEWEST, Whitening, calibrated_scatter
-from diagnosis.models.fabric.strengths import fitted_sizes, interval_of, next_sizes
+from diagnosis.models.fabric.strengths import fitted_sizes, interval_of, largest_believed, next_sizes
 from diagnosis.models.fabric.surface import Surface
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search
@@ -222,7 +222,7 @@ class _Plan:
         wide = [(t, s) for t, s in tasks if t not in self.model.link_places]
         if not self._has_links:  # a run takes long
             wide = [(t, s) for t, s in wide if not self.surface.knows(t)]
-        larger = [(t, float(np.copysign(min(t.parameters[0].plausible, t.parameters[0].upper), s))) for t, s in wide]
+        larger = [(t, largest_believed(t.parameters[0], s)) for t, s in wide]
         self._enter_more("effects of all links, at their largest", self._repeats * len(larger))
         for (term, strength), bins in zip(
             larger, self._means([(self._point(np.zeros(count), {t: (s,)}), self._repeats) for t, s in larger])

@@ -27,6 +27,12 @@ LEAST = 1e-9
 ERRORS = 2.0
 
 
+def largest_believed(parameter: TermParameter, sign: float) -> float:
+    """Strength of an effect of a sign beyond which it is not believed, or not searched."""
+    bound = parameter.upper if sign > 0.0 else parameter.lower
+    return float(np.copysign(min(parameter.plausible, abs(bound)), sign))
+
+
 def fitted_sizes(strength: float, known: Sequence[float], parameter: TermParameter) -> list[float]:
     """Strengths at which an effect that was fitted is simulated: as fitted, and at its largest if that is beyond all.
 
@@ -45,8 +51,7 @@ def fitted_sizes(strength: float, known: Sequence[float], parameter: TermParamet
     """
     if abs(strength) <= LEAST:
         return []
-    bound = parameter.upper if strength > 0.0 else parameter.lower
-    largest = float(np.copysign(min(parameter.plausible, abs(bound)), strength))
+    largest = largest_believed(parameter, strength)
     is_beyond = all(abs(strength) > abs(k) for k in known if k * strength > 0.0)
     is_larger = abs(largest) > abs(strength) and not is_near(strength, largest)
     return [strength, largest] if is_beyond and is_larger else [strength]
