@@ -40,6 +40,7 @@ from evaluation.strangers import (
     twelfth_set,
     twentieth_set,
     twenty_first_set,
+    twenty_fourth_set,
     twenty_second_set,
     twenty_third_set,
 )
@@ -70,6 +71,7 @@ SETS = {
     "twenty_first": twenty_first_set.CASES,
     "twenty_second": twenty_second_set.CASES,
     "twenty_third": twenty_third_set.CASES,
+    "twenty_fourth": twenty_fourth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
