@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import hashlib
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,7 @@ from cosim.algorithms.choose import choose
 from cosim.algorithms.restoring import CannotRestore
 from cosim.components import (
     ActuatorComponent,
+    AddedInputEntry,
     CircuitComponent,
     CircuitElement,
     Component,
@@ -101,7 +102,10 @@ def assemble(scenario: Scenario) -> Assembly:
     parameters: dict[str, Resolved] = {}
     try:
         scenario = _build_all(scenario, source, units, parameters)
-        connections = [_connection(given, i, units, source) for i, given in enumerate(scenario.connections)]
+        connections = [
+            _connection(given, f"connections[{i}]", units, source) for i, given in enumerate(scenario.connections, 1)
+        ]
+        connections += _to_added_inputs(scenario, units, source)
         sources = frozenset(n for n, u in units.items() if isinstance(u, ProgrammeUnit))
         try:
             system = System(units, connections, sources)
@@ -118,6 +122,45 @@ def assemble(scenario: Scenario) -> Assembly:
             unit.terminate()
         raise
     return Assembly(scenario, system, algorithm, start, parameters)
+
+
+def added_inputs(name: str, component: Component) -> Iterator[tuple[str, AddedInputEntry]]:
+    """What the terms of a component use of others, with the keys of where they say so; the last one is the name."""
+    for number, term in enumerate(component.added_terms if isinstance(component, FmuComponent) else ()):
+        for own, given in term.inputs.items():
+            yield f"components.{name}.added_terms[{number}].inputs.{own}", given
+
+
+def _to_added_inputs(scenario: Scenario, units: Mapping[str, Unit], source: Path) -> Iterator[Connection]:
+    """What leads into inputs that FMUs do not have."""
+    for name, component in scenario.components.items():
+        known: dict[str, AddedInputEntry] = {}
+        for key, given in added_inputs(name, component):
+            own = key.rpartition(".")[2]
+            if known.setdefault(own, given) is not given:
+                continue
+            fault = _fault_of_source(given.of, units)
+            if fault is not None:
+                raise InputError(source, f"{key}.of", *fault)
+            yield _connection(f"{given.of} -> {name}.{own}", f"{key}.unit", units, source)
+
+
+def _fault_of_source(of: str, units: Mapping[str, Unit]) -> tuple[str, str] | None:
+    """Why `component.variable` is no floating-point number that can be had, and what to write; None: it is one."""
+    component, _, text = of.partition(".")
+    if not text:
+        return f"`{of}` names no variable", "write component.variable"
+    if component not in units:
+        return f"there is no component {component}{did_you_mean(component, units)}", f"there are: {', '.join(units)}"
+    variables = units[component].variables
+    name, element = _element(text, variables)
+    found = variables.get(name)
+    if found is None or found.causality not in (Causality.OUTPUT, Causality.LOCAL):
+        there = [n for n, v in variables.items() if v.causality is Causality.OUTPUT]
+        return f"{component} has no output {name}{did_you_mean(name, there)}", f"it has: {', '.join(there) or 'none'}"
+    if not found.type.is_float or (found.shape and element is None):
+        return f"{of} is not one floating-point number", f"name one, or an element as in {name}[1]"
+    return None
 
 
 def _build_all(scenario: Scenario, source: Path, units: dict[str, Unit], parameters: dict[str, Resolved]) -> Scenario:
@@ -199,7 +242,13 @@ def _control(
 
 def _fmu(name: str, component: FmuComponent, parameters: Resolved, scenario: Scenario, source: Path) -> Unit:
     reports_events = getattr(scenario.algorithm, "on_event", "continue") == "synchronise"
-    unit = build_fmu(name, component, parameters, source, reports_events, scenario.time.stop.to("s"))
+    every = (i.of.partition(".") for n, c in scenario.components.items() for _, i in added_inputs(n, c))
+    known: dict[str, AddedInputEntry] = {}
+    for key, given in added_inputs(name, component):
+        if known.setdefault(key.rpartition(".")[2], given) != given:
+            raise InputError(source, key, "another term has this name for something else", "choose another one")
+    wanted = [variable for of, _, variable in every if of == name]
+    unit = build_fmu(name, component, parameters, source, reports_events, scenario.time.stop.to("s"), wanted)
     if isinstance(unit, CoSimulationUnit):
         try:
             unit.check_step(nanoseconds(scenario.time.macro_step))
@@ -271,7 +320,7 @@ def _quantity(value: object) -> PhysicalValue:
     return value
 
 
-def _connection(given: str | ScaledConnection, index: int, units: Mapping[str, Unit], source: Path) -> Connection:
+def _connection(given: str | ScaledConnection, key: str, units: Mapping[str, Unit], source: Path) -> Connection:
     scaled = given if isinstance(given, ScaledConnection) else ScaledConnection(connect=given)
     match = _CONNECTION.match(scaled.connect)
     assert match is not None  # the scenario's pattern has checked it
@@ -288,9 +337,7 @@ def _connection(given: str | ScaledConnection, index: int, units: Mapping[str, U
         try:
             factor, offset = conversion(found[0].unit, found[1].unit) if found[1].type.is_float else (1.0, 0.0)
         except ValueError as error:
-            raise InputError(
-                source, f"connections[{index + 1}]", f"{scaled.connect}: {error}", _unit_remedy(scaled, found)
-            ) from error
+            raise InputError(source, key, f"{scaled.connect}: {error}", _unit_remedy(scaled, found)) from error
     factor, offset = scaled.factor * factor, scaled.factor * offset + scaled.offset
     return Connection(ends[0], ends[1], factor, offset, elements[0], elements[1])
 

@@ -181,6 +181,13 @@ class AddedDelayEntry(Strict):
     by: StrictStr = Field(description="Parameter of the term that is the time; 0 or longer.")
 
 
+class AddedInputEntry(Strict):
+    """A quantity of another component."""
+
+    of: StrictStr = Field(description="component.variable: one floating-point number, a local variable of an FMU too.")
+    unit: StrictStr = Field(default="1", description="Its unit in the formulas.")
+
+
 class AddedTermEntry(Strict):
     """A term that the master adds to an FMU."""
 
@@ -198,6 +205,9 @@ class AddedTermEntry(Strict):
     )
     delays: dict[str, AddedDelayEntry] = Field(
         default={}, description="Inputs as they were some time ago, by the names that the formulas use."
+    )
+    inputs: dict[str, AddedInputEntry] = Field(
+        default={}, description="Quantities of other components, by the names that the formulas use."
     )
 
 

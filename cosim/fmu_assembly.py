@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from functools import partial
 from pathlib import Path
 
@@ -31,6 +31,7 @@ def build_fmu(
     source: Path,
     reports_events: bool = False,
     stop: float | None = None,
+    wanted: Collection[str] = (),
 ) -> Unit:
     """The unit of an FMU component.
 
@@ -41,6 +42,7 @@ def build_fmu(
         source: File of the scenario.
         reports_events: Whether its steps end at their first event (`on_event: synchronise`).
         stop: End of the simulation [s], passed to the FMU; None: it is not known.
+        wanted: Variables of it that terms of other components use.
 
     Raises:
         InputError: There is no such FMU, it cannot be loaded, or a parameter or start value does not fit.
@@ -59,6 +61,7 @@ def build_fmu(
             stop,
             report_early_return=reports_events,
             added_terms=given_terms(component.added_terms),
+            wanted=tuple(wanted),
         )
         kind: Callable[..., Unit] = ModelExchangeUnit if component.integrator == "cvode" else CoSimulationUnit
         build = partial(kind, name, archive, settings)

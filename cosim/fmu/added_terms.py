@@ -392,7 +392,7 @@ class AddedTerms:
                     *where, f"the FMU has no continuous state `{target}`", f"it has: {', '.join(self.states) or 'none'}"
                 )
             return self._units[target]
-        ports = [n for n in self._units if n in self.table.exposed]
+        ports = [n for n in self._units if n in self.table.exposed and not self.table.all[n].is_added]
         if target not in ports:
             raise InputError(
                 *where,
@@ -457,11 +457,13 @@ class AddedTerms:
         for term in self.inputs:
             own = np.zeros(self.table.all[term.target].variable.shape)
             self._writers[term.target] = binding.writer(self.table.all[term.target], own), own
-        inputs = [n for n, v in self.table.exposed.items() if v.variable.causality is Causality.INPUT]
+        inputs = [n for n, v in self.table.all.items() if v.variable.causality is Causality.INPUT and not v.is_added]
         #: Inputs as the FMU has them, and outputs that may hold a parameter.
         self._held = {n: self._writers[n][1] if n in self._writers else values[n] for n in inputs}
         self._changeable_outputs = [
-            n for n, v in self.table.exposed.items() if n not in self._held and v.variable.type.is_float
+            n
+            for n, v in self.table.exposed.items()
+            if v.variable.causality is not Causality.INPUT and v.variable.type.is_float
         ]
 
     @property
@@ -602,13 +604,20 @@ class AddedTerms:
             )
         return amount
 
-    def feedthrough(self) -> dict[str, frozenset[str]]:
-        """Output to the inputs that its terms use."""
+    def feedthrough(self, own: Mapping[str, frozenset[str]]) -> dict[str, frozenset[str]]:
+        """Output to the inputs that its terms use, and those at inputs that it follows.
+
+        Args:
+            own: Output to the inputs that it follows in the FMU.
+        """
         inputs = {n for n, v in self.table.exposed.items() if v.variable.causality is Causality.INPUT}
         found: dict[str, frozenset[str]] = {}
-        for term in self.outputs:
+        acting = [(t, [t.target]) for t in self.outputs]
+        acting += [(t, [n for n, followed in own.items() if t.target in followed]) for t in self.inputs]
+        for term, following in acting:
             at_once = {d.of for d in term.delayed.inputs.values() if d.by <= INSTANT}
-            found[term.target] = found.get(term.target, frozenset()) | ((term.formula.names | at_once) & inputs)
+            for name in following:
+                found[name] = found.get(name, frozenset()) | ((term.formula.names | at_once) & inputs)
         at_parameters = frozenset(n for t in self.parameters for n in t.names) & inputs
         for name, variable in self.table.exposed.items() if at_parameters else ():
             if variable.variable.causality is not Causality.INPUT:  # any of them may hold the parameter
@@ -645,6 +654,7 @@ def given_terms(given: Sequence[Any]) -> tuple[AddedTerm, ...]:
             {n: AddedState(s.rate, s.start, s.unit) for n, s in t.states.items()},
             {n: AddedDelay(d.of, d.by) for n, d in t.delays.items()},
             t.is_share,
+            {n: i.unit for n, i in t.inputs.items()},
         )
         for t in given
     )

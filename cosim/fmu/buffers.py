@@ -42,6 +42,8 @@ class Buffers:
         for name, v in variables.items():
             if v.variable.type is VariableType.CLOCK:  # in Event Mode alone: cosim.fmu.clocks
                 self.values[name] = np.zeros(v.variable.shape, dtype=np.bool_)
+            elif v.is_added:  # no call sets it
+                self.values[name] = _filled(v)
             elif v.variable.causality is Causality.INPUT:
                 self.values[name] = _filled(v)
                 self.writers[name] = binding.writer(v, self.values[name])
@@ -49,7 +51,8 @@ class Buffers:
                 read.setdefault(v.variable.type, {})[name] = v
         for vtype, members in read.items():
             self._add_block(binding, vtype, members)
-        self._inputs = [self.values[n] for n in self.writers]
+        #: Arrays that no other is a view into: inputs, blocks, clocks.
+        self._all = [*(v for v in self.values.values() if v.base is None), *self._blocks]
         self.input_readers = {n: binding.reader(variables[n], self.values[n]) for n in self.writers}
 
     def _add_block(self, binding: Binding, vtype: VariableType, members: Mapping[str, FmuVariable]) -> None:
@@ -98,13 +101,11 @@ class Buffers:
 
     def save(self) -> Saved:
         """Copies of all values."""
-        clocks = [v for n, v in self.values.items() if n not in self.writers and v.base is None]
-        return [a.copy() for a in (*self._inputs, *self._blocks, *clocks)]
+        return [a.copy() for a in self._all]
 
     def restore(self, saved: Saved) -> None:
         """Return to saved values."""
-        clocks = [v for n, v in self.values.items() if n not in self.writers and v.base is None]
-        for array, copy in zip((*self._inputs, *self._blocks, *clocks), saved, strict=True):
+        for array, copy in zip(self._all, saved, strict=True):
             array[...] = copy
 
 

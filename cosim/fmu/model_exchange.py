@@ -102,14 +102,14 @@ class ModelExchangeUnit(FmuUnit):
     def set(self, name: str, value: AnyArray) -> None:
         """See `FmuUnit`."""
         super().set(name, value)
-        if self._mode is not Mode.INSTANTIATED:
+        if self._mode is not Mode.INSTANTIATED and name in self.writers:
             for instance in self._instances:
                 instance.set(name, value)
 
     def initialise(self, time: int) -> None:
         """See `FmuUnit`."""
         for instance in self._instances:
-            for name in self._given:
+            for name in self._given & self.writers.keys():
                 instance.set(name, self.buffers.values[name])
             instance.initialise(time)
         super().initialise(time)
@@ -267,7 +267,7 @@ class ModelExchangeUnit(FmuUnit):
 
     def _pass_on(self, name: str) -> None:
         """An input that jumps is an event: it may switch something whose indicator jumps along with it."""
-        if self._mode is Mode.RUNNING and name in self.writers:
+        if self._mode is Mode.RUNNING and (name in self.writers or name in self.settings.added_inputs):
             self._enter_event_mode()
         super()._pass_on(name)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import keyword
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -14,9 +15,9 @@ from cosim.fmu.archive import FmuArchive
 from cosim.fmu.binding import Binding
 from cosim.fmu.gathering import fmu_variables
 from cosim.fmu.sizes import StructureFault, check_total
-from cosim.fmu.units import UnitNames
+from cosim.fmu.units import UnitNames, is_known
 from cosim.fmu.values import array_of
-from cosim.fmu.variables import FmuVariable, Sizes, declared_array, start_value
+from cosim.fmu.variables import FmuVariable, Sizes, added_input, declared_array, start_value
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Causality, UnitError, are_equal
 from cosim.unit.quantity import PhysicalValue
@@ -63,6 +64,7 @@ class AddedTerm:
         parameters: Numbers with units.
         states: Its own states.
         delays: Delayed inputs.
+        inputs: Quantities of other components by name, with their units: inputs that the FMU does not have.
         is_share: Whether the formula is a share of the derivative as the FMU has it (a capacity that is larger, say),
             or of a parameter.
     """
@@ -73,6 +75,7 @@ class AddedTerm:
     states: Mapping[str, AddedState] = field(default_factory=dict)
     delays: Mapping[str, AddedDelay] = field(default_factory=dict)
     is_share: bool = False
+    inputs: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -88,6 +91,7 @@ class FmuSettings:
         stop_time: End of the simulation [s], told to the FMU where it is known.
         report_early_return: Whether a step of a Co-Simulation FMU ends at its first event.
         added_terms: What the master adds to derivatives, inputs and outputs.
+        wanted: Variables that terms of other components use; local ones can be read as those of `record`.
     """
 
     structure: Mapping[str, int] = field(default_factory=dict)
@@ -98,6 +102,12 @@ class FmuSettings:
     stop_time: float | None = None
     report_early_return: bool = False
     added_terms: Sequence[AddedTerm] = ()
+    wanted: Sequence[str] = ()
+
+    @property
+    def added_inputs(self) -> frozenset[str]:
+        """Inputs that the FMU does not have, which terms alone see."""
+        return frozenset(n for t in self.added_terms for n in t.inputs)
 
 
 class Table:
@@ -119,10 +129,12 @@ class Table:
             self.all = fmu_variables(archive.description, settings.structure, self.units)
         except StructureFault as error:
             raise InputError(archive.path, f"{name}.structure", str(error), error.remedy) from error
+        self.all = {**self.all, **self._added_inputs()}
         self._given: dict[str, tuple[FmuVariable, AnyArray]] = {}
         #: Calls that read a parameter back, made at the first initialisation.
         self._readers: dict[str, Access] = {}
         recorded = {self._recorded(n) for n in settings.record}
+        recorded |= {n for w in settings.wanted for n in (w, w.partition("[")[0]) if n in self.all}
         self.exposed = {
             n: v
             for n, v in self.all.items()
@@ -132,6 +144,20 @@ class Table:
             check_total(self.exposed.values())
         except StructureFault as error:
             raise InputError(archive.path, name, str(error), error.remedy) from error
+
+    def _added_inputs(self) -> dict[str, FmuVariable]:
+        found: dict[str, FmuVariable] = {}
+        for number, term in enumerate(self.settings.added_terms):
+            for name, unit in term.inputs.items():
+                where = self.archive.path, f"{self.name}.added_terms[{number}].inputs.{name}"
+                if name in self.all:
+                    raise InputError(*where, "a variable of the FMU has this name", "choose another one")
+                if not name.isidentifier() or keyword.iskeyword(name):
+                    raise InputError(*where, "no formula can use this name", "write letters, digits and `_`")
+                if not is_known(unit):
+                    raise InputError(*where, f"`{unit}` is not a unit that is known here", "write it as in `m/s^2`")
+                found[name] = added_input(name, unit)
+        return found
 
     def _recorded(self, name: str) -> str:
         if name not in self.all:

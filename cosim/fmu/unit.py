@@ -136,7 +136,7 @@ class FmuUnit(Unit):
         """What the master adds acts from here on; outputs then depend on what their terms use."""
         self.added.bind(self.binding, self.buffers.values)
         self.buffers.added = self.added.add_outputs
-        for name, inputs in self.added.feedthrough().items():
+        for name, inputs in self.added.feedthrough(self.feedthrough).items():
             self.feedthrough = {**self.feedthrough, name: self.feedthrough.get(name, frozenset()) | inputs}
             initial = self.initial_feedthrough.get(name, frozenset()) | inputs
             self.initial_feedthrough = {**self.initial_feedthrough, name: initial}
@@ -186,8 +186,10 @@ class FmuUnit(Unit):
         """Hand an input to the FMU, with what is added to inputs."""
         if name in self.writers:
             self.writers[name]()
-            if self._mode in (Mode.RUNNING, Mode.EVENT):
-                self._add_to_inputs()
+        elif name not in self.settings.added_inputs:
+            return
+        if self._mode in (Mode.RUNNING, Mode.EVENT):
+            self._add_to_inputs()
 
     def _add_to_inputs(self) -> None:
         """At a communication point: inputs get what is added to them."""
@@ -316,10 +318,15 @@ class FmuUnit(Unit):
                 remedy="leave out checkpoints, or export the FMU with canSerializeFMUState",
             )
         self.exit_initialisation()
-        inputs = {f"input.{n}": plain(self.buffers.values[n]) for n in self.writers}
+        inputs = {f"input.{n}": plain(self.buffers.values[n]) for n in self._inputs}
         extra = {f"extra.{k}": v for k, v in self._checkpoint_extra().items()}
         delayed = {f"delayed.{k}": v for k, v in self.added.delayed.arrays().items()}
         return {"state": self.binding.serialise(), **inputs, **extra, **delayed}
+
+    @property
+    def _inputs(self) -> tuple[str, ...]:
+        """Inputs but clocks, those that the FMU does not have last."""
+        return (*self.writers, *self.settings.added_inputs)
 
     def _checkpoint_extra(self) -> dict[str, np.ndarray[Any, Any]]:
         return {}
@@ -329,7 +336,7 @@ class FmuUnit(Unit):
 
     def resume(self, state: Mapping[str, np.ndarray[Any, Any]], time: int) -> None:
         """Initialise, then restore the serialised state."""
-        for name in self.writers:
+        for name in self._inputs:
             self.buffers.values[name][...] = unplain(state[f"input.{name}"], self.variables[name].type)
             self._given.add(name)
         self.initialise(time)

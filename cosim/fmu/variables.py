@@ -41,9 +41,14 @@ class FmuVariable:
     declared: tuple[ModelVariable, ...]
 
     @property
+    def is_added(self) -> bool:
+        """Whether it is an input for added terms alone, of which the FMU knows nothing."""
+        return not self.declared
+
+    @property
     def is_structural(self) -> bool:
         """Whether it sets the size of others (FMI 3.0 structural parameter)."""
-        return bool(self.declared[0].causality == "structuralParameter")
+        return not self.is_added and bool(self.declared[0].causality == "structuralParameter")
 
     @property
     def is_size(self) -> bool:
@@ -53,22 +58,22 @@ class FmuVariable:
     @property
     def is_discrete(self) -> bool:
         """Whether it changes at events only."""
-        return bool(self.declared[0].variability == "discrete")
+        return not self.is_added and bool(self.declared[0].variability == "discrete")
 
     @property
     def is_constant(self) -> bool:
         """Whether nothing may set it."""
-        return bool(self.declared[0].variability == "constant")
+        return not self.is_added and bool(self.declared[0].variability == "constant")
 
     @property
     def has_start(self) -> bool:
         """Whether its start value may be set (initial exact or approx)."""
-        return not self.is_constant and self.declared[0].initial in ("exact", "approx")
+        return not (self.is_added or self.is_constant) and self.declared[0].initial in ("exact", "approx")
 
     @property
     def items(self) -> Mapping[str, int]:
         """Names of an enumeration's items."""
-        kind = self.declared[0].declaredType
+        kind = None if self.is_added else self.declared[0].declaredType
         return {} if kind is None else {i.name: int(i.value) for i in kind.items if i.value is not None}
 
 
@@ -101,6 +106,11 @@ def sizes(description: ModelDescription, structure: Mapping[str, int]) -> Sizes:
         if v.type.startswith(("UInt", "Int")) and (v.name in structural or v.variability == "constant")
     }
     return Sizes(values, {v.valueReference: v.name for v in description.modelVariables if v.valueReference in values})
+
+
+def added_input(name: str, unit: str) -> FmuVariable:
+    """An input that the FMU does not have: one floating-point number, 0 until the first exchange."""
+    return FmuVariable(Variable(name, Causality.INPUT, (), unit, start=0.0), (), ())
 
 
 def declared_array(v: ModelVariable, given: Sizes, units: UnitNames) -> FmuVariable:

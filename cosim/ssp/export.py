@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import yaml
 
-from cosim.assemble import Assembly, assemble
+from cosim.assemble import Assembly, added_inputs, assemble
 from cosim.components import FmuComponent, nanoseconds
 from cosim.connection import Connection
 from cosim.fmu_assembly import find_fmu
@@ -88,10 +88,11 @@ def _structure(export: _Export, assembly: Assembly, only_fmus: bool) -> tuple[Wr
     left_out = {n for n, p in parts.items() if p.fmu is None} if only_fmus else set()
     if left_out == set(parts):
         raise ValueError("no component of it is an FMU")
+    _check_sources(export, left_out)
     replaced = Replaced(left_out, parts)
     connected: dict[str, set[str]] = {n: set() for n in parts}
     connections: list[WrittenConnection] = []
-    for given, connection in zip(scenario.connections, assembly.system.connections, strict=True):
+    for given, connection in zip(scenario.connections, assembly.system.connections):  # added inputs come last
         linear, suppress = _scaling(given)
         if connection.target[0] in left_out:
             continue
@@ -124,6 +125,20 @@ def _structure(export: _Export, assembly: Assembly, only_fmus: bool) -> tuple[Wr
         stop,
         own,
     ), (*replaced.notes, *notes)
+
+
+def _check_sources(export: _Export, left_out: Set[str]) -> None:
+    """Whether what added inputs get is in the file.
+
+    Raises:
+        InputError: It is of a component that is left out.
+    """
+    for name, part in export.parts.items():
+        for key, given in added_inputs(name, part.component):
+            source = given.of.partition(".")[0]
+            if source in left_out and name not in left_out:
+                problem = f"{source} is no FMU and is left out, and a term of {name} needs {given.of}"
+                raise InputError(export.source, key, problem, "export the whole scenario")
 
 
 def _scaling(given: str | ScaledConnection) -> tuple[Linear, bool]:

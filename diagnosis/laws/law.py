@@ -71,6 +71,14 @@ class Role(Enum):
     RESPONSE = "output over an input or output"
     #: The same, over any but itself.
     RESPONSE_TO_ANOTHER = "output over an input or another output"
+    #: Derivative of any state s but a position, over a quantity o of another component.
+    FAR_RATE = "rate of a state over a quantity of another component"
+    #: A parameter p of an FMU that shows its states, over such a quantity o.
+    FAR_PARAMETER = "parameter over a quantity of another component"
+    #: An input u, over such a quantity o.
+    FAR_INPUT = "input over a quantity of another component"
+    #: An input u of an FMU that hides its states, over an output y and such a quantity o.
+    FAR_PORT = "input over an output and a quantity of another component"
 
 
 @dataclass(frozen=True)

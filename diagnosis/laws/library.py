@@ -8,6 +8,7 @@ import pkgutil
 from dataclasses import replace
 
 import diagnosis.laws as package
+from diagnosis.laws.across import across
 from diagnosis.laws.at_inputs import at_inputs
 from diagnosis.laws.completing import completing
 from diagnosis.laws.law import Law, Number, OwnState, Role
@@ -42,7 +43,11 @@ def library() -> tuple[Law, ...]:
         where = importlib.import_module(f"{package.__name__}.{folder}")
         for module in sorted(m.name for m in pkgutil.iter_modules(where.__path__)):
             named.append(importlib.import_module(f"{where.__name__}.{module}").LAW)
-    return (*sorted((*named, *at_inputs(named), *_generic()), key=lambda law: not law.is_named), *completing())
+    return (
+        *sorted((*named, *at_inputs(named), *_generic()), key=lambda law: not law.is_named),
+        *completing(),
+        *across(),
+    )
 
 
 def _generic() -> list[Law]:

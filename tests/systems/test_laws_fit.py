@@ -79,6 +79,7 @@ def _fitted(folder: Path, integrator: str) -> list[Fitted]:
         f"{name}: {{unit: {unit}, points: [[0 s, {first} {unit}], [4 s, {then} {unit}]]}}"
         for name, (unit, first, then) in INPUTS.items()
     )
+    outputs += ", beside: {unit: m, points: [[0 s, 0 m], [3 s, 2 m]]}"  # what nothing connects to the rig
     wires = ", ".join(f"drive.{name} -> rig.{name}" for name in INPUTS)
     text = (
         "title: Everything\ntime: {stop: 10 s, macro_step: 10 ms, output_step: 20 ms}\n"
@@ -91,6 +92,7 @@ def _fitted(folder: Path, integrator: str) -> list[Fitted]:
         rows = system.simulate()
         assert rows is not None
         taken = {name.removeprefix("state "): rows.values[:, s] for (_, name), s in system.recorded.items()}
+        taken["drive_beside"] = taken["beside"]
         return [(fit, own, taken) for fit in fits(places, library(), 0.02)]
     finally:
         system.close()

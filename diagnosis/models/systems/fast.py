@@ -19,6 +19,7 @@ from cosim.programme import Course, ProgrammeUnit
 from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array, UnitError
+from cosim.unit.quantity import conversion
 from diagnosis.models.systems.feedthrough import with_measured_feedthrough
 from diagnosis.models.systems.fmu_layout import MOST_MOVED, FastFmu, NotFast, flat_address
 from diagnosis.models.systems.layout import (
@@ -32,7 +33,7 @@ from diagnosis.models.systems.layout import (
     SampledLayout,
     SystemLayout,
 )
-from diagnosis.models.systems.placed import Placed, placed_of
+from diagnosis.models.systems.placed import Placed, PlacedInput, placed_of
 from diagnosis.models.systems.source import compiled
 from diagnosis.search.cosim_run import Changes
 
@@ -86,11 +87,13 @@ class FastSystem:
     def _build(self, laws: Sequence[Placed]) -> None:
         self._measure_feedthrough()
         system = self.assembly.system
+        self._far = _far_of(laws)
         for name, unit in system.units.items():
             if isinstance(unit, FmuUnit):
                 if unit.binding.capabilities.canBeInstantiatedOnlyOncePerProcess:
                     raise NotFast(f"the FMU of {name} can be instantiated only once")
-                self.fmus[name] = FastFmu(unit)
+                of_laws = {i.name: i.unit for i in self._far.get(name, ()) if i.name not in unit.settings.added_inputs}
+                self.fmus[name] = FastFmu(unit, of_laws)
             elif not isinstance(unit, ProgrammeUnit):
                 raise NotFast(f"{name} is no FMU")
         self._order()
@@ -145,7 +148,7 @@ class FastSystem:
                 raise NotFast(f"a term at the output {name} of {law.component} is simulated by the co-simulation alone")
         else:
             name, kind = law.to, Kind.INPUT
-            if name not in fmu.inputs or fmu.inputs[name].stop - fmu.inputs[name].start != 1:
+            if not fmu.can_add_to(name):
                 raise NotFast(f"{law.component} has no input {name}")
             target = fmu.inputs[name].start
         scale = 1.0 if kind in (Kind.SHARE, Kind.PARAMETER) else 1.0 / to_base(fmu.units[name])[0]
@@ -208,15 +211,20 @@ class FastSystem:
                 settle.append(OperationLayout(Code.GET, self._numbers[owner.name], 0))
             else:
                 raise NotFast("something of its order is no transfer")
+        far = {name: self._far_transfer(name) for name in self.fmus if name in self._far}
+        for name in (n for n in far if any(self.fmus[n].unit.feedthrough.values())):  # outputs that follow them at once
+            settle = [*far[name], OperationLayout(Code.GET, self._numbers[name], 0), *settle]
         operations = list(settle)
         if self.scenario.algorithm.kind == "jacobi":
             for transfer in system.unsettled:
                 operations += self._transfer(transfer)
+            operations += [o for own in far.values() for o in own]
             operations += [OperationLayout(Code.STEP, self._numbers[n], 0) for n in system.movers]
         else:
             for name in system.movers:
                 for transfer in system.transfers[name]:
                     operations += self._transfer(transfer)
+                operations += far.get(name, [])
                 operations.append(OperationLayout(Code.STEP, self._numbers[name], 0))
         self._settle = (OperationLayout * max(len(settle), 1))(*settle)
         self._operations = (OperationLayout * max(len(operations), 1))(*operations)
@@ -265,6 +273,36 @@ class FastSystem:
             OperationLayout(Code.COPY, begin, len(self._copies)),
             OperationLayout(Code.PUT, self._numbers[target], 0),
         ]
+
+    def _far_transfer(self, name: str) -> list[OperationLayout]:
+        """What carries quantities of other components to the laws of one."""
+        fmu, begin = self.fmus[name], len(self._copies)
+        for far in self._far[name]:
+            factor, offset = conversion(self._unit_of(far.of), far.unit)
+            to = fmu.outer.ctypes.data + 8 * fmu.inputs[far.name].start
+            self._copies.append(CopyLayout(to, self._address_of(far.of), factor, offset))
+        return [
+            OperationLayout(Code.COPY, begin, len(self._copies)),
+            OperationLayout(Code.PUT, self._numbers[name], 0),
+        ]
+
+    def _address_of(self, of: str) -> int:
+        """Where `component.variable` stands: an output that is one number, or a state."""
+        component, _, name = of.partition(".")
+        array = self._sources.get((component, name))
+        if array is None and component in self.fmus:
+            fmu = self.fmus[component]
+            if name in fmu.states:
+                return int(fmu.state.ctypes.data + 8 * fmu.states[name])
+            array = fmu.outputs.get(name)
+        if array is None or array.size != 1:
+            raise NotFast(f"{of} is not one floating-point number of double precision")
+        return int(array.ctypes.data)
+
+    def _unit_of(self, of: str) -> str:
+        component, _, name = of.partition(".")
+        unit = self.assembly.system.units[component]
+        return unit.table.all[name].variable.unit if isinstance(unit, FmuUnit) else unit.variables[name].unit
 
     # time grid and records
 
@@ -358,6 +396,9 @@ class FastSystem:
         self._shift_start(changes)
         for fmu in self.fmus.values():
             fmu.take_over()
+        for name, own in self._far.items():
+            for far in own:
+                self._begin_far(self.fmus[name], far)
         programmes = (SampledLayout * max(len(sampled), 1))(*sampled)
         units = self._unit_array()
         layout = SystemLayout(
@@ -384,6 +425,12 @@ class FastSystem:
         if done < self.steps or not np.isfinite(self._rows).all():
             return None
         return Rows(self.times, self._rows)
+
+    def _begin_far(self, fmu: FastFmu, far: PlacedInput) -> None:
+        """What a law has of another component before the first exchange."""
+        factor, offset = conversion(self._unit_of(far.of), far.unit)
+        value = ctypes.c_double.from_address(self._address_of(far.of)).value
+        fmu.outer[fmu.inputs[far.name]] = factor * value + offset
 
     def _unit_array(self) -> Any:
         kind = type(next(iter(self.fmus.values())).layout)
@@ -474,6 +521,15 @@ class FastSystem:
             ctypes.addressof(fmu.layout), time, given.ctypes.data, found.ctypes.data
         )
         return found if status == 0 else np.full(len(states), np.nan)
+
+
+def _far_of(laws: Sequence[Placed]) -> dict[str, tuple[PlacedInput, ...]]:
+    """Component to the quantities of others that its laws use, each once."""
+    found: dict[str, dict[str, PlacedInput]] = {}
+    for law in laws:
+        for far in law.inputs:
+            found.setdefault(law.component, {})[far.name] = far
+    return {name: tuple(own.values()) for name, own in found.items()}
 
 
 def samples(course: Course, start: int, size: int, steps: int) -> Array:

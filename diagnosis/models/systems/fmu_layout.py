@@ -15,6 +15,7 @@ from cosim.fmu.co_simulation import CoSimulationUnit
 from cosim.fmu.model_exchange import ModelExchangeUnit
 from cosim.fmu.unit import FmuUnit
 from cosim.fmu.units import is_known
+from cosim.fmu.variables import added_input
 from cosim.formula import to_base
 from cosim.unit.protocol import Array, Causality
 from diagnosis.models.systems.layout import ROOM, AccessLayout, AddedLayout, CopyLayout, Kind, MovedLayout, UnitLayout
@@ -63,12 +64,13 @@ class FastFmu:
 
     Args:
         unit: The FMU, assembled.
+        far: Quantities of other components that laws may use, by name with their units.
 
     Raises:
         NotFast: It has something that only the co-simulation can do.
     """
 
-    def __init__(self, unit: FmuUnit) -> None:
+    def __init__(self, unit: FmuUnit, far: Mapping[str, str] | None = None) -> None:
         self.unit, self.name = unit, unit.name
         self.is_model_exchange = isinstance(unit, ModelExchangeUnit)
         if not self.is_model_exchange and not isinstance(unit, CoSimulationUnit):
@@ -87,10 +89,18 @@ class FastFmu:
                 continue
             self.inputs[name] = slice(begin, begin + variable.size)
             begin += variable.size
-        self.outer, self.inner, self.held = (np.zeros(begin) for _ in range(3))
+        #: Numbers that the FMU is given.
+        self.input_count = begin
+        #: Inputs that it does not have, with their units, which laws alone see; their places are the last.
+        self.added_inputs = {n: table.all[n].variable.unit for n in sorted(unit.settings.added_inputs)} | dict(
+            far or {}
+        )
+        self.inputs |= {n: slice(begin + i, begin + i + 1) for i, n in enumerate(self.added_inputs)}
+        self.outer, self.inner, self.held = (np.zeros(begin + len(self.added_inputs)) for _ in range(3))
         self.writers = [
             binding.writer(table.exposed[n], self.inner[s].reshape(table.exposed[n].variable.shape))
             for n, s in self.inputs.items()
+            if n not in self.added_inputs
         ]
         self.readers = [a for a in unit.buffers.group_readers if a.values.dtype == np.float64 and a.is_direct]
         #: Name of an output to its array, which the FMU fills.
@@ -116,7 +126,7 @@ class FastFmu:
             is_fmi3=binding.prefix == "fmi3",
             is_model_exchange=self.is_model_exchange,
             substeps=1,
-            inputs=len(self.outer),
+            inputs=self.input_count,
         )
         self.indicators = 0
         if self.is_model_exchange:
@@ -135,6 +145,7 @@ class FastFmu:
         self.seen = np.zeros(max(self.state_count, 1))
         names = {n: table.all[n].variable for n in (*self.states, *self.inputs, *self.outputs) if n in table.all}
         known = {n: v for n, v in names.items() if is_known(v.unit)}
+        known |= {n: added_input(n, unit).variable for n, unit in self.added_inputs.items()}
         #: Name of what laws may use to its unit.
         self.units = {n: v.unit for n, v in known.items()}
         sources: dict[str, int] = {}
@@ -211,6 +222,11 @@ class FastFmu:
         layout.has_outputs_added = any(a.kind == Kind.OUTPUT for a in added)
         layout.has_parameters_added = any(a.kind == Kind.PARAMETER for a in added)
 
+    def can_add_to(self, name: str) -> bool:
+        """Whether it has an input of this name that is one number."""
+        own = self.inputs.get(name)
+        return own is not None and name not in self.added_inputs and own.stop - own.start == 1
+
     def check_changeable(self) -> None:
         """Whether its parameters can change during a run.
 
@@ -234,7 +250,7 @@ class FastFmu:
             count = max(self.state_count, sum(a.buffer.size for a in self.readers), 1)
             if len(self.instances) == MOST_MOVED:
                 self.instances.pop(next(iter(self.instances))).moved.free()
-            self.instances[name] = Instances(self.unit, name, len(self.outer), count)
+            self.instances[name] = Instances(self.unit, name, self.input_count, count)
         return self.instances[name]
 
     def close(self) -> None:
@@ -246,7 +262,8 @@ class FastFmu:
         """Inputs, states and the next event as the initialisation has left them."""
         unit = self.unit
         for name, own in self.inputs.items():
-            self.outer[own] = np.ravel(unit.buffers.values[name])
+            if name in unit.buffers.values:
+                self.outer[own] = np.ravel(unit.buffers.values[name])
         event = None
         if isinstance(unit, ModelExchangeUnit):
             event = unit.next_event

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from cosim.components import AddedDelayEntry, AddedStateEntry, AddedTermEntry
+from cosim.components import AddedDelayEntry, AddedInputEntry, AddedStateEntry, AddedTermEntry
 from cosim.unit.quantity import PhysicalValue
 
 
@@ -42,6 +42,21 @@ class PlacedDelay:
 
 
 @dataclass(frozen=True)
+class PlacedInput:
+    """A quantity of another component.
+
+    Args:
+        name: Symbol in the formulas.
+        of: `component.variable`.
+        unit: Its unit in the formulas.
+    """
+
+    name: str
+    of: str
+    unit: str
+
+
+@dataclass(frozen=True)
 class Placed:
     """What is added to one derivative, input or output.
 
@@ -54,6 +69,7 @@ class Placed:
         states: Its own states.
         delays: Delayed inputs.
         is_share: Whether the formula is a share of the derivative as the FMU has it.
+        inputs: Quantities of other components.
     """
 
     component: str
@@ -64,6 +80,7 @@ class Placed:
     states: tuple[PlacedState, ...] = ()
     delays: tuple[PlacedDelay, ...] = ()
     is_share: bool = False
+    inputs: tuple[PlacedInput, ...] = ()
 
     @property
     def parameter(self) -> str:
@@ -84,6 +101,7 @@ class Placed:
             parameters=parameters,
             states=states,
             delays=delays,
+            inputs={i.name: AddedInputEntry(of=i.of, unit=i.unit) for i in self.inputs},
         )
 
 
@@ -93,5 +111,6 @@ def placed_of(component: str, entry: AddedTermEntry) -> tuple[Placed, tuple[floa
     states = tuple(PlacedState(name, s.rate, s.start, s.unit) for name, s in entry.states.items())
     delays = tuple(PlacedDelay(name, d.of, d.by) for name, d in entry.delays.items())
     units = tuple((n, v.unit) for n, v in numbers.items())
-    placed = Placed(component, entry.to, entry.formula, units, {}, states, delays, entry.is_share)
+    inputs = tuple(PlacedInput(name, i.of, i.unit) for name, i in entry.inputs.items())
+    placed = Placed(component, entry.to, entry.formula, units, {}, states, delays, entry.is_share, inputs)
     return placed, tuple(v.number for v in numbers.values())

@@ -13,19 +13,20 @@ import numpy as np
 
 from cosim.formula import Formula, FormulaError
 from cosim.unit.protocol import Array
-from cosim.unit.quantity import PhysicalValue, conversion, parse_unit, registry
+from cosim.unit.quantity import PhysicalValue, parse_unit, registry
 from diagnosis.laws.at_inputs import OVER
 from diagnosis.laws.expression import names_in, renamed
 from diagnosis.laws.law import Law, Number, Role
 from diagnosis.models.systems.changeable import changeable, why_none
 from diagnosis.models.systems.derivative_outputs import FACTOR, outputs_read, parts_read, read_by_outputs, read_in_part
+from diagnosis.models.systems.far import far_quantities
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import FastFmu, NotFast
-from diagnosis.models.systems.placed import Placed, PlacedDelay, PlacedState
-from diagnosis.models.systems.quantities import Places, Quantity
+from diagnosis.models.systems.placed import Placed, PlacedDelay, PlacedInput, PlacedState
+from diagnosis.models.systems.quantities import Places, Quantity, quantity_of
 from diagnosis.models.systems.steps import resolve
 from diagnosis.models.systems.surroundings import hidden_surroundings, surroundings
-from diagnosis.models.systems.targets import MODULATED, SURROUNDINGS, is_of, parameter, targets
+from diagnosis.models.systems.targets import AT_PARAMETERS, MODULATED, SURROUNDINGS, is_of, parameter, targets
 from diagnosis.search.problem import Term, TermParameter
 
 #: Points at which the equations are asked whether a state is the derivative of another.
@@ -121,6 +122,7 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
         own.apart = _apart(fmu, own, courses, step)
         own.acted_on_by = _acting(systems[0], own, *probed)
         own.parameters = changeable(systems[0], fmu, own)
+        own.far = far_quantities(systems[0], fmu.name, courses, step)
         own.room = surroundings(systems[0], fmu, own, *probed) or hidden_surroundings(systems[0], fmu, own)
         own.untried = _untried(fmu, own)
         own.is_hidden = not fmu.is_model_exchange
@@ -158,28 +160,13 @@ def _quantities(
     step: float,
     is_difference: bool = False,
 ) -> dict[str, Quantity]:
-    """In the unit of each variable; a temperature, and what two of them are apart by, in kelvin."""
     found = {}
     for name, key in zip(names, keys):
         if name not in fmu.units or not _is_nameable(name):
             continue
         values = [c[key].reshape(-1) for c in courses if key in c]
-        if not values:
-            continue
-        middle = float(np.median(np.concatenate([v[:1] for v in values])))
-        size = float(np.sqrt(np.mean([np.mean((v - middle) ** 2) for v in values])))
-        slopes = [np.gradient(v, step) for v in values if len(v) > 1]
-        rate = float(np.sqrt(np.mean([np.mean(s**2) for s in slopes]))) if slopes else 0.0
-        size = size or max(abs(middle), 1.0)
-        least, most = min(float(np.min(v)) for v in values), max(float(np.max(v)) for v in values)
-        unit, stated = fmu.units[name], None
-        if parse_unit(unit).dimensionality == parse_unit("K").dimensionality:
-            stated = middle, size
-            factor, offset = conversion(unit, "K")
-            unit, size, rate = "K", factor * size, factor * rate
-            middle, least, most = (factor * v + (0.0 if is_difference else offset) for v in (middle, least, most))
-        rate = rate or size / max(step * 100, 1e-9)
-        found[name] = Quantity(name, unit, size, middle, rate, stated, least, most)
+        if values:
+            found[name] = quantity_of(name, fmu.units[name], values, step, is_difference)
     return found
 
 
@@ -314,7 +301,7 @@ def _fit(own: Places, law: Law, to: str, target: Quantity, symbols: Mapping[str,
         return None  # an output that reads the derivative would have to read the share of it too
     if not needed <= set(symbols) or any(symbols[d.of].name not in own.inputs for d in law.delays):
         return None
-    taken = {*own.states, *own.inputs, *own.outputs, "time"}
+    taken = {*own.states, *own.inputs, *own.outputs, *own.far, "time"}
     room = {} if own.room is None or "T_a" not in needed else {SURROUNDINGS: PhysicalValue(own.room, "K")}
     if taken & set(room):
         return None
@@ -342,6 +329,7 @@ def _fit(own: Places, law: Law, to: str, target: Quantity, symbols: Mapping[str,
             ),
             tuple(PlacedDelay(fresh[d.name], symbols[d.of].name, fresh[d.by]) for d in law.delays),
             law.is_share,
+            tuple(PlacedInput(q.name, own.far[q.name][1], q.unit) for q in symbols.values() if q.name in own.far),
         )
         placed = replace(placed, numbers=_used(placed)) if law.reaction else placed
         _check(own, placed, to)
@@ -353,7 +341,7 @@ def _fit(own: Places, law: Law, to: str, target: Quantity, symbols: Mapping[str,
             _check(own, one, one.to)
     except (FormulaError, ValueError, ZeroDivisionError):
         return None
-    changed = own.parameters.get(target.name) if law.role is Role.PARAMETER else None
+    changed = own.parameters.get(target.name) if law.role in AT_PARAMETERS else None
     domain = domain_of(target.unit if changed is None else own.states[changed.moves[0]].unit, own)
     is_held = law.role in HELD and bool(law.states) and not own.states
     parameters = tuple(_parameter(n, fresh[n.name], scale, symbols, steps.macro_step, is_held) for n in law.numbers)
@@ -366,6 +354,7 @@ def _fit(own: Places, law: Law, to: str, target: Quantity, symbols: Mapping[str,
     what += f", {reaction.to} += {reaction.formula}" if reaction is not None else ""
     what += "" if changed is None else "".join(f", or {parameter(n)} alike" for n in changed.alike)
     what += "".join(f", {n} = {v.number:g} {v.unit}".rstrip() for n, v in placed.constants.items())
+    what += "".join(f", {i.name} = {i.of}" for i in placed.inputs)
     beside = _beside(own, law, symbols, needed)
     over = OVER.get(law.role, ("o",))[0]
     others = [n for n in dict.fromkeys((beside, symbols[over].name if over in symbols else "")) if n]
@@ -421,7 +410,11 @@ def _beside(own: Places, law: Law, symbols: Mapping[str, Quantity], needed: Coll
         return symbols[law.reacts_on or "r"].name
     if "T_a" in needed and sum(is_of(q, "K") for q in own.inputs.values()) > 1:
         return symbols["T_a"].name  # which of them are the surroundings
-    return symbols["o"].name if law.role is Role.PARAMETER else ""
+    return symbols[_BESIDE[law.role]].name if law.role in _BESIDE else ""
+
+
+#: Role to the symbol of what there may be several of.
+_BESIDE = {Role.PARAMETER: "o", Role.FAR_PARAMETER: "o", Role.FAR_PORT: "y"}
 
 
 def _references(
@@ -437,7 +430,7 @@ def _references(
     found = {}
     for symbol in law.series_of:
         q, name = symbols[symbol], f"{symbol}_0"
-        begins = (law.role is Role.PARAMETER and not law.states) or (law.role in MODULATED and q.name in states)
+        begins = (law.role in AT_PARAMETERS and not law.states) or (law.role in MODULATED and q.name in states)
         far = BEGUN if begins else FAR
         if abs(q.middle) > far * q.size and name not in taken:
             found[symbol] = name, PhysicalValue(float(f"{q.middle:.4g}"), q.unit)
@@ -507,6 +500,7 @@ def _evaluated(of: str, values: Mapping[str, object]) -> Any:
 def _check(own: Places, placed: Placed, to: str) -> None:
     """Whether the co-simulation will take the formula, units and all."""
     every = (*own.states.values(), *own.inputs.values(), *own.outputs.values(), *own.readings.values())
+    every += tuple(q for q, _ in own.far.values())
     units = {q.name: q.unit for q in every} | dict.fromkeys(map(parameter, own.parameters), "1")
     units |= own.output_units
     units |= {"time": "s", **dict(placed.numbers), **{n: v.unit for n, v in placed.constants.items()}}

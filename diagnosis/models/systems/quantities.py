@@ -3,7 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+
+import numpy as np
+
+from cosim.unit.protocol import Array
+from cosim.unit.quantity import conversion, parse_unit
 
 
 @dataclass(frozen=True)
@@ -82,6 +88,8 @@ class Places:
         twist_of: State whose derivative is the difference of two others, to these two.
         acted_on_by: State to the other states that its derivative depends on.
         parameters: Parameters that its derivatives hold.
+        far: Quantities of other components that move and that nothing connects to this one, by the names of inputs for
+            them; and what these get.
         room: Temperature of the surroundings [K], where no input has it and the equations tell it.
         untried: Where no law can be tried, and why.
         is_hidden: Whether the FMU is used by Co-Simulation, which hides its states.
@@ -100,6 +108,33 @@ class Places:
     output_units: dict[str, str] = field(default_factory=dict)
     acted_on_by: dict[str, frozenset[str]] = field(default_factory=dict)
     parameters: dict[str, Changeable] = field(default_factory=dict)
+    far: dict[str, tuple[Quantity, str]] = field(default_factory=dict)
     room: float | None = None
     untried: list[str] = field(default_factory=list)
     is_hidden: bool = False
+
+
+def quantity_of(name: str, unit: str, courses: Sequence[Array], step: float, is_difference: bool = False) -> Quantity:
+    """A quantity with the sizes that it has; a temperature, and what two of them are apart by, in kelvin.
+
+    Args:
+        name: Its name.
+        unit: Of the courses.
+        courses: Its values in each recording.
+        step: Time between two of them [s].
+        is_difference: Whether it is what two quantities are apart by.
+    """
+    middle = float(np.median(np.concatenate([v[:1] for v in courses])))
+    size = float(np.sqrt(np.mean([np.mean((v - middle) ** 2) for v in courses])))
+    slopes = [np.gradient(v, step) for v in courses if len(v) > 1]
+    rate = float(np.sqrt(np.mean([np.mean(s**2) for s in slopes]))) if slopes else 0.0
+    size = size or max(abs(middle), 1.0)
+    least, most = min(float(np.min(v)) for v in courses), max(float(np.max(v)) for v in courses)
+    stated = None
+    if parse_unit(unit).dimensionality == parse_unit("K").dimensionality:
+        stated = middle, size
+        factor, offset = conversion(unit, "K")
+        unit, size, rate = "K", factor * size, factor * rate
+        middle, least, most = (factor * v + (0.0 if is_difference else offset) for v in (middle, least, most))
+    rate = rate or size / max(step * 100, 1e-9)
+    return Quantity(name, unit, size, middle, rate, stated, least, most)

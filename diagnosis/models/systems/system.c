@@ -90,7 +90,7 @@ typedef struct {
     void *enter_event_mode, *update, *enter_continuous_mode, *do_step;
     double *state; /* states of the FMU, then of the laws; and room for the same seven times over */
     double *signs; /* indicators before and now */
-    double *outer, *inner, *held; /* inputs from outside, with what is added, as the FMU has them */
+    double *outer, *inner, *held; /* inputs from outside (those for laws alone last), with what is added, as the FMU has them */
     const Access *writers;
     int64_t writer_count;
     const Access *readers;

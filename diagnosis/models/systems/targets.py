@@ -30,6 +30,10 @@ AT_PORTS = (
     Role.RESPONSE,
     Role.RESPONSE_TO_ANOTHER,
 )
+#: Roles of laws that change a parameter.
+AT_PARAMETERS = (Role.PARAMETER, Role.FAR_PARAMETER)
+#: Roles of laws over a quantity of another component.
+FAR = (Role.FAR_RATE, Role.FAR_PARAMETER, Role.FAR_INPUT, Role.FAR_PORT)
 #: Roles of a state that is known by its unit alone: symbol in formulas, and units. A law of another domain, as of a
 #: concentration, adds its role here.
 OF_A_STATE: Mapping[Role, tuple[str, tuple[str, ...]]] = {
@@ -60,6 +64,8 @@ def targets(own: Places, role: Role) -> Iterator[Target]:
         yield from _at_ports(own, role)
     elif role in MODULATED:
         yield from _modulated(own, role, free)
+    elif role in FAR:
+        yield from _far(own, role, free)
     elif role in (Role.PARAMETER, Role.PAIR):
         yield from _over_another(own, role, free)
     else:
@@ -80,6 +86,20 @@ def _over_another(own: Places, role: Role, free: Mapping[str, Quantity]) -> Iter
     else:
         for name, q in free.items():
             yield from ((f"der({name})", q, {"s": q, "o": o}) for o in every if o.name != name)
+
+
+def _far(own: Places, role: Role, free: Mapping[str, Quantity]) -> Iterator[Target]:
+    """States, parameters and inputs over every quantity of another component."""
+    for o, _ in own.far.values():
+        if role is Role.FAR_RATE:
+            yield from ((f"der({n})", q, {"s": q, "o": o}) for n, q in free.items())
+        elif role is Role.FAR_PARAMETER:
+            for name, changed in own.parameters.items():
+                yield parameter(name), changed.quantity, {"p": changed.quantity, "o": o}
+        else:
+            for name, q in own.inputs.items():
+                shown = own.outputs.values() if role is Role.FAR_PORT else (None,)
+                yield from ((name, q, {"u": q, "o": o, **({} if y is None else {"y": y})}) for y in shown)
 
 
 def _modulated(own: Places, role: Role, free: Mapping[str, Quantity]) -> Iterator[Target]:
