@@ -112,6 +112,11 @@ def _size(beside: Beside, factor: float = 1.0, offset: float = 0.0) -> _Size:
     return _Size(_range(measured) / _range(simulated), levels)
 
 
+def _apart(beside: Beside, factor: float = 1.0, offset: float = 0.0) -> float:
+    """Root mean square distance of the readings from the simulation after a conversion."""
+    return float(np.sqrt(np.mean((factor * beside.measured + offset - beside.simulated_there) ** 2)))
+
+
 def _score(size: _Size, unit: str, is_place: bool = False) -> float:
     """-2 log of how probable a size is, up to a constant: chi-square with two degrees of freedom.
 
@@ -145,6 +150,8 @@ def _unit_doubts(compared: Compared, beside: Beside, stated: str) -> list[Doubt]
         offset = other[1] - factor * own[1]
         if np.std(beside.simulated_there) <= 3.0 * factor * channel.deviation:
             continue  # in that unit the noise would hide all that is simulated
+        if channel.unit == "K" and _apart(beside, factor, offset) >= _apart(beside):
+            continue  # another start is forgotten on the way, another unit is not
         score = _score(_size(beside, factor, offset), channel.unit, beside.is_place)
         if best is None or score < best[0]:
             best = score, unit

@@ -149,9 +149,11 @@ def _scale_of_one(beside: Beside, others: Sequence[tuple[Beside, float]], ratio:
     where = float(np.mean(beside.simulated_there))
     there = float(np.median([np.mean(o.measured) + s * (where - np.mean(o.simulated_there)) for o, s in others]))
     mean, width = float(np.mean(beside.measured)), float(np.std(beside.measured))
+    about = ABOUT * width + ABOUT_MEAN * abs(mean)
+    if abs(mean - there) < about:
+        return None  # of what is this large, no zero of a scale is seen
     for theirs, mine, factor, shift in SCALES:
-        is_near = abs(mean - factor * there - shift) < ABOUT * width + ABOUT_MEAN * abs(mean)
-        if is_near and abs(np.log(ratio / factor)) < NEAR:
+        if abs(mean - factor * there - shift) < about and abs(np.log(ratio / factor)) < NEAR:
             return theirs, mine
     return None
 

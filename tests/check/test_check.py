@@ -100,6 +100,17 @@ def test_unit_of_a_column(scenario: Scenario, tmp_path: Path, stated: str, facto
     assert f"as `unit: {right}` they are of its size" in found[0].statement
 
 
+@pytest.mark.parametrize("excess", [20.0, 31.5, 45.0])
+def test_a_rig_that_is_warm_from_before_has_no_other_unit(scenario: Scenario, tmp_path: Path, excess: float) -> None:
+    """Numbers of another unit stay off; what was left of the run before is forgotten with the rig's time constant."""
+    values = rig.readings(rig.FIRST)
+    times = np.linspace(0.0, 1.0, len(values))
+    values[:, 1] = 21.0 + 0.9 * (values[:, 1] - 21.0) + excess * np.exp(-times / 0.15)
+    found = doubts(scenario, rig.write(tmp_path / "a", rig.FIRST, values))
+    assert not [d for d in found if d.kind == "unit"]
+    assert [d.subject for d in found if d.kind == "start"] == ["coil[2].temperature"]
+
+
 def test_turned_over(scenario: Scenario, tmp_path: Path) -> None:
     values = rig.readings(rig.FIRST)
     values[:, 0] = 42.0 - values[:, 0]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -104,16 +105,21 @@ connections: [heater.power -> plate.power]
 """
 
 
-def _plates(folder: Path, spoil: Callable[[Array], Array]) -> list[Path]:
-    """Three recordings; the temperature of the second is written as `spoil` makes it."""
-    PLATE.build(folder)
+def _plates(
+    folder: Path,
+    spoil: Callable[[Array], Array],
+    shown: Callable[[Array], Array] = lambda T: T,
+    model: OdeModel = PLATE,
+) -> list[Path]:
+    """Three recordings; what is shown of the temperature of the second is written as `spoil` makes it."""
+    model.build(folder)
     (folder / "scenario.yaml").write_text(PLATE_SCENARIO, encoding="utf-8")
     found = []
     for number in range(3):
         rng = np.random.default_rng(70 + number)
         power = np.repeat(rng.uniform(0.0, 30.0, 10), 30)
         warm = held(lambda x, u: (u - 0.51 * (x - 22.0)) / 39.0, np.array([22.0]), power, 2.0)[:, 0]
-        read = warm + 0.05 * rng.standard_normal(len(warm))
+        read = shown(warm) + 0.05 * rng.standard_normal(len(warm))
         columns = {"t": 2.0 * np.arange(300), "P": power, "T": spoil(read) if number == 1 else read}
         columns["s"] = warm**2 / 100.0 + 0.05 * rng.standard_normal(len(warm))
         channels = {"plate.warm": ("T", "1", "0.05"), "plate.shown": ("s", "1", "0.05")}
@@ -139,6 +145,14 @@ def test_numbers_of_another_scale_of_temperature_are_told_without_units(
 )
 def test_another_slope_or_zero_alone_is_no_scale(tmp_path: Path, spoil: Callable[[Array], Array]) -> None:
     assert not [d for d in doubts(tmp_path, _plates(tmp_path, spoil)) if "as if in" in d.statement]
+
+
+@pytest.mark.parametrize("share", [0.93, 1.0, 1.07])
+def test_no_zero_of_a_scale_is_seen_of_numbers_that_are_as_large(tmp_path: Path, share: float) -> None:
+    """A balance that shows 14 kg in grams: 273 more or less are within what a number of the rig may be off by."""
+    heavy = replace(PLATE, outputs={**PLATE.outputs, "warm": ("", "14000.0 + 10.0*T")})
+    folders = _plates(tmp_path, lambda v: 14220.0 + share * (v - 14220.0), lambda T: 14000.0 + 10.0 * T, heavy)
+    assert not [d for d in doubts(tmp_path, folders) if "as if in" in d.statement]
 
 
 @pytest.mark.parametrize(
