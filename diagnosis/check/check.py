@@ -10,8 +10,8 @@ import xarray as xr
 
 from cosim.scenario import Scenario
 from diagnosis.check.beside import Compared, compare
+from diagnosis.check.clock_doubts import shift_doubts
 from diagnosis.check.clock_of_one import clocks_of_one
-from diagnosis.check.clock_shift import shift_doubts
 from diagnosis.check.copied import copied_doubts
 from diagnosis.check.edges import edge_doubts
 from diagnosis.check.gain_of_one import gain_of_one

@@ -17,6 +17,7 @@ from scipy.optimize import least_squares, minimize_scalar
 
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared, lagged
+from diagnosis.check.clock_jump import INSTANTS, SIZES, Jump, best_jump
 from diagnosis.check.explain import independent
 from diagnosis.check.timing import percent, resolution
 from diagnosis.judge.diagnosis import Doubt
@@ -40,6 +41,8 @@ HARDER = 1.1
 CHANGES, SHIFTS = 4, 41
 #: What recordings are compared with.
 AS_IT_IS, RECALIBRATED = "the scenario as it is", "the scenario with its numbers fitted"
+#: Smallest and largest jump that is tried, in how far the straight line of offsets is off.
+ABOUT = (0.2, 2.0)
 #: Standard normal quantile of 97.5 %.
 _QUANTILE = 1.959964
 #: Lags that are tried, as shares of the longest, and -2 log likelihood by which a lag and a clock are told apart: one
@@ -127,9 +130,9 @@ def _of_recording(one: Compared, others: Sequence[Compared], simulated: str) -> 
         largest = max(float(np.ptp(b.simulated_there)) for b in same)
         if not is_alone and float(np.ptp(beside.simulated_there)) > HARDER * largest:
             continue
-        found = [
-            r for r in (_clock(beside), _lag(beside)) if r is not None and TIMES * r.left <= left and r.left <= MET
-        ]
+        clock = _clock(beside)
+        every = (clock, _jumped(beside, clock), _lag(beside))
+        found = [r for r in every if r is not None and TIMES * r.left <= left and r.left <= MET]
         told_apart = _best(beside, found)
         # rows that were written late move all that follows their input, and not one channel alone
         row = 0.0 if is_alone and len(one.switches()) >= CHANGES else _row(one)
@@ -149,7 +152,7 @@ def _of_recording(one: Compared, others: Sequence[Compared], simulated: str) -> 
         yield Doubt(one.recording.title, name, kind, told.format(text), remedy, True, one.begin, one.end, z)
 
 
-def _best(beside: Beside, found: Sequence[_Clock | _Lag]) -> list[_Clock | _Lag]:
+def _best(beside: Beside, found: Sequence[_Reason]) -> list[_Reason]:
     """Those that explain the readings as well as the best, by what they leave and as many as are independent."""
     if not found:
         return []
@@ -158,14 +161,17 @@ def _best(beside: Beside, found: Sequence[_Clock | _Lag]) -> list[_Clock | _Lag]
     return [r for r, weight in zip(found, weights) if weight <= min(weights) + APART]
 
 
-def _in_words(found: Sequence[_Clock | _Lag]) -> tuple[str, str, str]:
+def _in_words(found: Sequence[_Reason]) -> tuple[str, str, str]:
     """Kind of doubt, what explains the readings of one recording, and the remedy: a clock, a slower sensor, or both."""
     clock = "compare two instants that both clocks know, and correct the times of this column's table"
     slower = "what was changed at this sensor (a filter, its mounting)? State its lag (`lag_bound`), or leave it out"
     first, *others = (r.in_words() for r in found)
+    is_clock = [isinstance(r, _Clock | _Jumped) for r in found]
     if others:
-        return "late", f"{first}, and {others[0]}: the two cannot be told apart", f"{clock}; or {slower}"
-    if isinstance(found[0], _Clock):
+        text = f"{', '.join((first, *others[:-1]))}, and {others[-1]}: the{' two' if len(found) == 2 else 'se'} "
+        text += "cannot be told apart"
+        return ("clock", text, clock) if all(is_clock) else ("late", text, f"{clock}; or {slower}")
+    if is_clock[0]:
         return "clock", first, clock
     return "sensor", f"{first}: the sensor answered more slowly than in the others", slower
 
@@ -193,6 +199,61 @@ class _Lag:
     def in_words(self) -> str:
         """What is off."""
         return f"{percent(1.0 - self.left)} behind a lag of {instant(self.lag, 3)} s"
+
+
+@dataclass(frozen=True)
+class _Jumped:
+    """A channel's clock that is right at first.
+
+    Args:
+        jump: From when on, and by how much it shows a later time.
+        since: Begin of the readings [s].
+        left: Share of the variance that the scenario leaves of the channel then.
+    """
+
+    jump: Jump
+    since: float
+    left: float
+
+    def moves(self, beside: Beside) -> Array:
+        """Offsets of the readings of any recording, if its clock jumped as long after its begin [s]."""
+        return np.where(_since(beside) >= self.jump.at - self.since, self.jump.size, 0.0)
+
+    def rest(self, beside: Beside) -> Array:
+        """What it leaves of any recording of the channel, SI."""
+        return _rest(beside, self.moves(beside))
+
+    def is_beyond(self, one: Compared, beside: Beside, row: float) -> bool:
+        """Whether it is farther off than readings and rows of inputs leave open, the latter [s]."""
+        return abs(self.jump.size) > resolution(one, beside.channel) + row
+
+    def in_words(self) -> str:
+        """What is off."""
+        return f"{percent(1.0 - self.left)} if {self.jump.in_words()}"
+
+
+#: What may make the readings of one recording late or early.
+_Reason = _Clock | _Jumped | _Lag
+
+
+def _jumped(beside: Beside, clock: _Clock | None) -> _Jumped | None:
+    """The jump that leaves least of a channel; None where no clock is off, or where it is at an end of the readings."""
+    if clock is None:
+        return None
+    about = float(np.abs(clock.moves(beside)).max())
+    begin, end = float(beside.times[0]), float(beside.times[-1])
+
+    def offsets(size: float, at: float) -> Array:
+        return np.where(beside.times >= at, size, 0.0)
+
+    def squares(jumps: Array) -> Array:
+        return np.array([float(np.sum(_rest(beside, offsets(size, at)) ** 2)) for size, at in jumps])
+
+    found = best_jump(begin, end, about * np.geomspace(*ABOUT, SIZES), squares)
+    apart = (end - begin) / (INSTANTS + 1)
+    if not begin + apart < found.at < end - apart:
+        return None
+    return _Jumped(found, begin, _left(beside, offsets(found.size, found.at)))
 
 
 def _behind(beside: Beside, lag: float) -> Array:

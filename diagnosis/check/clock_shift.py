@@ -16,13 +16,10 @@ import numpy as np
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared, direct, lagged
 from diagnosis.check.discrepancy import Likelihoods, Thinned, likelihoods, thin
-from diagnosis.check.explain import explained, explains
 from diagnosis.check.late_input import gain_of_late_input
 from diagnosis.check.quantiles import chi_square_beyond
-from diagnosis.check.timing import between, critical, leading, resolution
-from diagnosis.judge.diagnosis import Doubt
+from diagnosis.check.timing import critical, leading
 from diagnosis.recording.series import sample
-from diagnosis.report.display import instant
 
 #: Longest shift that is tried, as a share of the recording; longer ones move the whole response
 #: (`diagnosis.check.timing`).
@@ -37,17 +34,6 @@ MOST_CHANNELS = 2
 TURN = 0.02
 #: Instants at which an event is tried.
 EVENTS = 100
-#: What an event, and sensors that answer an input, are in words.
-_ELSE = (
-    "the rig responds by another size from some instant on",
-    "the readings answer an input at once, before the body does",
-    "the response to the same input changes in the course of the recording",
-    "one input acts later or earlier than it is said to",
-)
-_FASTER = "the rig responds faster than the model says"
-#: Share of variance from which a response draws nearly all of the readings: what the model does not draw moves a
-#: response in time by more than clocks are off where it is a twentieth of it.
-DRAWN = 0.95
 #: Gain from which a second channel supports a move that is decided by all together: one of 20 by chance.
 SUPPORT = chi_square_beyond(0.05, 1)
 
@@ -111,143 +97,6 @@ class Shift:
         return 100.0 * self.rate * abs(self.size)
 
 
-def shift_doubts(compared: Compared) -> list[Doubt]:
-    """At most one doubt: the clock is off beyond its bound, or a lag makes it seem so."""
-    found = clock_shift(compared)
-    if found is None or not _is_followed(compared, found):
-        return []
-    bound = max(resolution(compared, b.channel) for b in asked(compared))
-    slowest = max(b.channel.lag_bound for b in asked(compared))
-    limit = critical(2.0 * SHIFTS)
-    low, high = found.interval
-    z = float(np.sqrt(max(found.gained, found.alone, 0.0)))
-    where = compared.recording.title, "time", "dead time"
-    over = compared.begin, compared.end, z
-    # what one switch alone says may be an event beside it
-    is_decisive = min(found.gained, found.spread) > limit
-    if is_decisive and min(abs(low), abs(high)) > bound and low * high > 0.0:
-        # what sets in in some time and stays may seem late, and what answers at once early
-        is_late = found.size > 0.0 and not found.is_rate
-        # what answers at once comes early
-        at_once = 0.0 if is_late else direct_gain(compared)
-        rivals = (event_gain(compared), at_once, growth_gain(compared, is_late), input_gain(compared, found))
-        if max(rivals) > found.gained + limit:
-            return []
-        for rival, what in zip(rivals, _ELSE):
-            if found.gained < rival + limit:
-                return [_or_else(compared, found, over, what)]
-        if not found.is_common:
-            return [_of_one(compared, found, over)]
-        if is_late:
-            return [_late(compared, found, where, over)]
-        if not _is_drawn(compared, found):
-            return [_or_else(compared, found, over, _FASTER)]
-        return [_decided(compared, found, where, over)]
-    # a note names both explanations and chooses none: one test, no price for the shifts that were tried
-    is_undecided = not found.is_rate and found.alone > critical(1.0) and abs(found.rival) < limit
-    if is_undecided and low > bound and found.lag > max(slowest, bound):
-        text = (
-            f"the response comes late: a clock shift of {_size(found)} or a lag of {instant(found.lag, 3)} s "
-            "cannot be told apart"
-        )
-        return [Doubt(*where, text, "state `offset_bound` or `lag_bound`, whichever is known", False, *over)]
-    return []
-
-
-def _is_followed(compared: Compared, found: Shift) -> bool:
-    """Whether the readings follow the programme at all, as it is or moved, behind any lags.
-
-    Of a response to something else some shift leaves a little less than none does, and says nothing of a clock.
-    """
-    return explains(0.0, float(np.median([max(pair) for pair in _shares(compared, found)])))
-
-
-def _is_drawn(compared: Compared, found: Shift) -> bool:
-    """Whether the moved response draws nearly all of the readings, or the move takes away most of what is left.
-
-    Of a rig that responds faster than its model, a resonance that is higher, say, a shift takes away a little, by a
-    likelihood that no lag reaches, and leaves a lot.
-    """
-    own, moved = (float(np.median(shares)) for shares in zip(*_shares(compared, found)))
-    return moved > DRAWN or explains(own, moved)
-
-
-def _shares(compared: Compared, found: Shift) -> list[tuple[float, float]]:
-    """Share of variance that the response explains of each channel that is asked, as it is and moved."""
-    rate = found.rate * found.size if found.is_rate else 0.0
-    shift = 0.0 if found.is_rate else found.size
-    return [(explained(b, b).share, explained(b, b, (b.times - shift) / (1.0 + rate)).share) for b in asked(compared)]
-
-
-def _decided(compared: Compared, found: Shift, where: tuple[str, str, str], over: tuple[float, float, float]) -> Doubt:
-    """The doubt where no lag competes."""
-    low, high = sorted(abs(v) for v in found.interval)
-    weight = f"no lag explains as much: it gains {found.gained:.3g} in -2 log likelihood"
-    if found.is_rate:
-        fast = "fast" if found.size > 0 else "slow"
-        low, high = (100.0 * found.rate * v for v in (low, high))
-        text = f"the readings' clock runs {found.percent:.2g} % too {fast} ({low:.2g} to {high:.2g} %, 95 %); {weight}"
-        remedy = "compare two instants that both clocks know; correct the column of times or its unit"
-        return Doubt(where[0], where[1], "clock", text, remedy, True, *over)
-    stated = max(b.channel.offset_bound for b in asked(compared))
-    text = (
-        f"the response comes {instant(abs(found.size), 3)} s earlier than {compared.drive} "
-        f"({between(low, high)} s, 95 %), where at most {instant(stated, 3)} s are stated; {weight}"
-    )
-    remedy = "correct `time.zero` or the programme's times, or state the clock's `offset_bound`"
-    return Doubt(*where, text, remedy, True, *over)
-
-
-def _late(compared: Compared, found: Shift, where: tuple[str, str, str], over: tuple[float, float, float]) -> Doubt:
-    """The doubt where the response comes late: a dead time and many lags in series make it late too."""
-    low, high = found.interval
-    text = (
-        f"the response comes {instant(found.size, 3)} s later than {compared.drive} "
-        f"({between(low, high)} s, 95 %), by more than one or two lags explain "
-        f"({found.gained:.3g} in -2 log likelihood): a clock that is off, a dead time and many lags in series cannot "
-        "be told apart"
-    )
-    remedy = "correct `time.zero` or the programme's times, or model the dead time"
-    return Doubt(*where, text, remedy, False, *over, is_far=True)
-
-
-def _size(found: Shift) -> str:
-    """How far a clock is off, with its interval."""
-    factor, unit = (100.0 * found.rate, "%") if found.is_rate else (1.0, "s")
-    sign = 1.0 if found.size >= 0.0 else -1.0
-    low, high = sorted(sign * factor * v for v in found.interval)
-    return f"{factor * abs(found.size):.3g} {unit} ({low:.3g} to {high:.3g} {unit}, 95 %)"
-
-
-def _or_else(compared: Compared, found: Shift, over: tuple[float, float, float], what: str) -> Doubt:
-    """The doubt where something else explains as much: the search knows it."""
-    way = "later" if found.size > 0.0 else "earlier"
-    off = f"the response seems to come {way} than {compared.drive} by {_size(found)}"
-    if found.is_rate:
-        off = f"the readings' clock seems to run wrong by {_size(found)}"
-    text = f"{off}, or {what}: these cannot be told apart"
-    remedy = "compare two instants that both clocks know"
-    return Doubt(compared.recording.title, "time", "clock", text, remedy, False, *over)
-
-
-def _of_one(compared: Compared, found: Shift, over: tuple[float, float, float]) -> Doubt:
-    """The doubt where one channel alone is off: the search knows such a fault, so that it is no other experiment."""
-    asking = asked(compared)
-    names = " and ".join(b.channel.name for b in asking)
-    if found.is_rate:
-        text = f"the times of {names} seem to be off by {_size(found)}: its own clock, or that of the recording"
-    else:
-        way, causes = ("later", ", or a dead time") if found.size > 0.0 else ("earlier", "")
-        text = (
-            f"the response of {names} comes {way} than {compared.drive} by {_size(found)}: the clock of the channel, "
-            f"of the input or of the recording{causes}"
-        )
-    more = "no other channel can confirm it" if len(asking) == 1 else "not every channel shows the same"
-    text = f"{text}; {more}"
-    remedy = "compare two instants that both clocks know, or state the channel's `offset_bound`"
-    return Doubt(compared.recording.title, "time", "clock", text, remedy, False, *over)
-
-
 def asked(compared: Compared) -> list[Beside]:
     """Channels that tell the time best: temperatures and flows, and outputs of a component that follow its inputs.
 
@@ -300,7 +149,7 @@ def clock_shift(compared: Compared) -> Shift | None:
     if not leads or not len(compared.switches()):
         return None
     span = compared.end - compared.begin
-    least = _reading_step(leads)
+    least = reading_step(leads)
     longest = LONGEST * span
     if not longest > 4.0 * least:
         return None
@@ -313,7 +162,7 @@ def clock_shift(compared: Compared) -> Shift | None:
     return max(known, key=lambda f: f.gained) if known else None
 
 
-def _reading_step(leads: list[Beside]) -> float:
+def reading_step(leads: list[Beside]) -> float:
     """Time between two readings of the channel that is read most often [s]."""
     return min(float(np.median(np.diff(b.channel.times))) for b in leads)
 
@@ -346,13 +195,13 @@ def _along(compared: Compared, leads: list[Beside], sizes: Array, lags: Array, u
         float(profile[zero] - profile[top]),
         float(alone[SHIFTS] - alone.min()),
         float(alone.min() - coarse[SHIFTS, 1]),
-        _spread(compared, timed, zero, top),
-        _is_common([t.deviance.min(axis=1) for t in timed], zero, top),
+        spread_gain(compared, timed, zero, top),
+        is_common([t.deviance.min(axis=1) for t in timed], zero, top),
         float(unit[1]),
     )
 
 
-def _is_common(profiles: list[Array], zero: int, top: int) -> bool:
+def is_common(profiles: list[Array], zero: int, top: int) -> bool:
     """Whether two channels or more ask for a move, and none of them for another one.
 
     Args:
@@ -370,7 +219,7 @@ def _total(leads: list[Beside], moves: Array, lags: Array) -> tuple[Array, list[
 
     The third is the largest best lag of any channel at each move [s].
     """
-    timed = [timed_channel(b, moves, lags) for b in leads]
+    timed = timed_channels(leads, moves, lags)
     plain = np.sum([t.deviance[:, 0] for t in timed], axis=0)
     free = np.sum([t.deviance.min(axis=1) for t in timed], axis=0)
     slow = np.max([np.abs(lags)[t.deviance.argmin(axis=1)] for t in timed], axis=0)
@@ -422,7 +271,7 @@ def input_gain(compared: Compared, found: Shift) -> float:
     if not found.is_rate and sum(np.ptp(c.values) > 0.0 for c in compared.courses) < 2:
         return -np.inf
     leads = asked(compared)
-    lags = lag_grid(_reading_step(leads), LONGEST * (compared.end - compared.begin))
+    lags = lag_grid(reading_step(leads), LONGEST * (compared.end - compared.begin))
     stays = np.zeros((1, 2))
     return gain_of_late_input(compared, leads, lambda b: float(timed_channel(b, stays, lags).deviance.min()))
 
@@ -467,12 +316,18 @@ def order(beside: Beside) -> int:
     return 1 if beside.channel.target.domain in ("electrical", "stiffness") else 2
 
 
+def timed_channels(leads: list[Beside], moves: Array, lags: Array) -> list[Timed]:
+    """Likelihood of every channel, see `timed_channel`."""
+    return [timed_channel(b, moves, lags) for b in leads]
+
+
 def timed_channel(beside: Beside, moves: Array, lags: Array) -> Timed:
     """Likelihood of a channel for each move of its course and each lag.
 
     Args:
         beside: The channel, and the course that explains it.
-        moves: Shift [s] and rate of the readings' clock, shape (moves, 2).
+        moves: Shift [s] and rate of the readings' clock, and how far it jumps [s] and when [s] where they have that,
+            shape (moves, 2 or 4).
         lags: Of its sensor, as `lag_grid` gives them.
     """
     at = thinned(beside)
@@ -499,8 +354,10 @@ def _columns(beside: Beside, times: Array, moves: Array, lags: Array) -> Array:
         slower = [lagged(series.times, own, share * span) for share in SLOWER]
         every.append([own, *slower])
     found = np.empty((len(moves), len(lags), 1 + len(SLOWER), len(times)))
-    for i, (shift, rate) in enumerate(moves):
+    for i, (shift, rate, *jump) in enumerate(moves):
         when = (times - shift) / (1.0 + rate)
+        if jump:
+            when = when - jump[0] * (times >= jump[1])
         for j, rows in enumerate(every):
             found[i, j, 0] = sample(series, when) if not lags[j] else np.interp(when, series.times, rows[0])
             for n, row in enumerate(rows[1:]):
@@ -509,7 +366,7 @@ def _columns(beside: Beside, times: Array, moves: Array, lags: Array) -> Array:
     return np.asarray((flat - flat[..., :1]) / scale)
 
 
-def _spread(compared: Compared, timed: list[Timed], zero: int, top: int) -> float:
+def spread_gain(compared: Compared, timed: list[Timed], zero: int, top: int) -> float:
     """Gain of all stretches between switches but the one that says most for a shift."""
     ends = compared.switches()
     groups = np.zeros(len(ends) + 1)

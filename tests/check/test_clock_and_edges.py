@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -12,7 +13,8 @@ import pytest
 from cosim.scenario import Scenario, load_scenario
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Compared, compare, lagged
-from diagnosis.check.clock_shift import Shift, _size, clock_shift, direct_gain, event_gain, shift_doubts, timed_channel
+from diagnosis.check.clock_doubts import _size, shift_doubts
+from diagnosis.check.clock_shift import Shift, clock_shift, direct_gain, event_gain, timed_channel
 from diagnosis.check.edges import edge_doubts, edges
 from diagnosis.check.timing import _interval, timing_doubts
 from diagnosis.recording.recording import load_recording
@@ -60,10 +62,10 @@ def test_a_response_that_grows_is_no_clock_that_runs_wrong(
     power = np.array([p[1:] for p in rig.FIRST])[np.searchsorted(starts, rig.instants(), side="right") - 1]
     values = rig.readings(rig.FIRST) + 6.0 * (power > 0.5) * np.expm1(2.0 * share) / np.expm1(2.0)
     one = beside(scenario, tmp_path / "a", rig.FIRST, values)
-    monkeypatch.setattr("diagnosis.check.clock_shift.direct_gain", lambda compared: 0.0)
-    monkeypatch.setattr("diagnosis.check.clock_shift.event_gain", lambda compared: 0.0)
+    monkeypatch.setattr("diagnosis.check.clock_doubts.direct_gain", lambda compared: 0.0)
+    monkeypatch.setattr("diagnosis.check.clock_doubts.event_gain", lambda compared: 0.0)
     assert shift_doubts(one) == []
-    monkeypatch.setattr("diagnosis.check.clock_shift.growth_gain", lambda compared, is_late: 0.0)
+    monkeypatch.setattr("diagnosis.check.clock_doubts.growth_gain", lambda compared, is_late=False: 0.0)
     assert shift_doubts(one) != []
 
 
@@ -226,3 +228,30 @@ def test_a_heater_that_opens_is_no_clock(scenario: Scenario, tmp_path: Path) -> 
     found = clock_shift(one)
     assert event_gain(one) > (found.gained if found is not None else 0.0)
     assert not any(d.is_serious for d in shift_doubts(one))
+
+
+@pytest.mark.parametrize(("at", "late"), [(310.0, 14.0), (310.0, -25.0), (420.0, 20.0), (250.0, 6.0)])
+def test_a_clock_that_jumps_is_told_with_when_and_by_how_much(
+    scenario: Scenario, tmp_path: Path, at: float, late: float
+) -> None:
+    """A logger whose clock stood still or was set: it runs right before and after."""
+    times = rig.instants()
+    written = np.where(times >= at, times + late, times)
+    keep = np.concatenate([[True], np.diff(np.maximum.accumulate(written)) > 0.0])
+    path = rig.write(tmp_path / "a", rig.SECOND, rig.readings(rig.SECOND)[keep], times=written[keep])
+    (doubt,) = shift_doubts(compare(scenario, load_recording(path)))
+    assert (doubt.kind, doubt.is_serious) == ("clock", True)
+    words = "late: the clock was set forward" if late > 0.0 else "early: the clock stood still or was set back"
+    found = re.search(
+        rf"from about ([\d.]+) s on the readings are written about ([\d.]+) s too {words}", doubt.statement
+    )
+    assert found is not None, doubt.statement
+    assert float(found[1]) == pytest.approx(at, abs=0.07 * rig.SPAN)
+    assert float(found[2]) == pytest.approx(abs(late), rel=0.2)
+
+
+@pytest.mark.parametrize("rate", [0.02, -0.02, 0.03])
+def test_a_clock_that_runs_wrong_does_not_jump(scenario: Scenario, tmp_path: Path, rate: float) -> None:
+    path = rig.write(tmp_path / "a", rig.SECOND, rig.readings(rig.SECOND), times=(1.0 + rate) * rig.instants())
+    for doubt in shift_doubts(compare(scenario, load_recording(path))):
+        assert "from about" not in doubt.statement or "cannot be told apart" in doubt.statement

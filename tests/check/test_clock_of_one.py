@@ -38,12 +38,14 @@ def _doubts(folder: Path, recordings: list[Path]) -> list[Doubt]:
     return clocks_of_one(_compared(folder, recordings))
 
 
-def _own_table(recording: Path, fast: float, late: float) -> None:
-    """The channel in a table of its own, whose clock runs so much too fast and is ahead by so much [s]."""
+def _own_table(recording: Path, fast: float, late: float, since: float = 0.0) -> None:
+    """The channel in a table of its own, whose clock runs so much too fast and is ahead by so much from then on [s]."""
     about = yaml.safe_load((recording / "recording.yaml").read_text(encoding="utf-8"))
     table = pd.read_csv(recording / "data.csv")
     channel = about["channels"]["rig.position"]
-    own = pd.DataFrame({"t": (1.0 + fast) * table["t"] + late, channel["column"]: table.pop(channel["column"])})
+    ahead = late * (table["t"] >= since)
+    own = pd.DataFrame({"t": (1.0 + fast) * table["t"] + ahead, channel["column"]: table.pop(channel["column"])})
+    own = own[own["t"] > own["t"].cummax().shift(fill_value=-1.0)]  # nothing is written twice where it is set back
     own.to_csv(recording / "own.csv", index=False)
     table.to_csv(recording / "data.csv", index=False)
     channel |= {"table": "own.csv", "time": {"column": "t", "unit": "s", "zero": 0.0}}
@@ -73,6 +75,23 @@ def test_the_recording_whose_clock_is_off_is_named_with_how_far(
         assert high - low < 0.2 * abs(fast)
     else:
         assert float(re.findall(r"is ([\d.]+) s", told.statement)[0]) == pytest.approx(abs(late), rel=0.05)
+
+
+@pytest.mark.parametrize(("late", "words"), [(0.08, "late: the clock was set forward"), (-0.04, "early: the clock")])
+def test_a_clock_that_jumps_does_not_run_wrong(late: float, words: str, tmp_path: Path) -> None:
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
+    at = 0.55 * COUNT * STEP
+    _own_table(recordings[1], 0.0, late, at)
+    (told,) = _doubts(tmp_path, recordings)
+    assert (told.recording, told.kind) == ("run_2", "clock")
+    found = re.search(
+        rf"from about ([\d.]+) s on the readings are written about ([\d.]+) s too {words}", told.statement
+    )
+    assert found is not None, told.statement
+    assert float(found[1]) == pytest.approx(at, abs=0.3)
+    assert float(found[2]) == pytest.approx(abs(late), rel=0.1)
+    assert "%" not in told.statement.split("but", 1)[1].replace(found[0], "").split("if")[1]
 
 
 def test_of_two_recordings_none_is_named_and_of_good_ones_none(tmp_path: Path) -> None:

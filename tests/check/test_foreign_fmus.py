@@ -13,7 +13,7 @@ from cosim.cli import app
 from cosim.loading import load_scenario
 from diagnosis.check.beside import compare
 from diagnosis.check.check import check_recordings
-from diagnosis.check.clock_shift import shift_doubts
+from diagnosis.check.clock_doubts import shift_doubts
 from diagnosis.check.edges import Edges, edge_doubts
 from diagnosis.check.input_doubts import how
 from diagnosis.check.inputs import compare_inputs

@@ -12,7 +12,8 @@ from typer.testing import CliRunner
 from cosim.cli import app
 from cosim.loading import load_scenario
 from diagnosis.check.beside import Compared, compare
-from diagnosis.check.clock_shift import shift_doubts, swings, turns
+from diagnosis.check.clock_doubts import shift_doubts
+from diagnosis.check.clock_shift import swings, turns
 from diagnosis.recording.recording import load_recording
 from evaluation.fmus.model import OdeModel
 
