@@ -24,6 +24,7 @@ from diagnosis.check.outage import outage_doubts
 from diagnosis.check.places import place_doubts, size_doubts
 from diagnosis.check.readings import reading_doubts
 from diagnosis.check.scale import sign_doubts, unit_doubts
+from diagnosis.check.size_of_input import size_of_input
 from diagnosis.check.start import start_doubts, with_odd_starts
 from diagnosis.check.still import still_doubts
 from diagnosis.check.swapped import swap_doubts
@@ -104,7 +105,8 @@ def _odd(doubt: Doubt, every: Sequence[Compared], is_told: bool) -> Doubt:
     gain = gain_of_one(one, others)
     if gain is not None and gain.is_serious:
         return gain
-    return unit_of_input(one, others) or other_course(one, others) or other_number(one, others) or gain or doubt
+    asked = (unit_of_input, size_of_input, other_course, other_number)
+    return next((d for ask in asked if (d := ask(one, others)) is not None), gain or doubt)
 
 
 def _relation(one: Compared, others: Sequence[Compared]) -> list[Doubt]:

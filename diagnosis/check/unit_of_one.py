@@ -51,7 +51,7 @@ OF_ONE: dict[str, tuple[str, ...]] = {
     "m/s^2": ("m/s^2", "mm/s^2", "g_0"),
     "m^2": ("m^2", "cm^2", "mm^2"),
     "m^3": ("cm^3", "mm^3", "ul"),
-    "m^3/s": ("ml/s", "ml/min", "ul/min", "ul/s", "l/h"),
+    "m^3/s": ("ml/s", "ml/min", "ul/min", "ul/s", "l/h", "m^3/min", "ft^3/min"),
     "rad": ("mrad", "arcmin"),
     "rad/s": ("mrad/s", "turn/s", "deg/min"),
     "N": ("uN", "gf"),
