@@ -166,12 +166,13 @@ def between_samples(estimates: Sequence[Estimate], term: Term, model: DiagnosisM
     return tuple(found)
 
 
-def of_what_stays(
+def of_an_input(
     estimates: Sequence[Estimate], term: Term, fit: Fit, model: DiagnosisModel, doubt: float = 1.0
 ) -> tuple[Estimate, ...]:
-    """Estimates of an input that stayed, whose begin and end may be anywhere while nothing else was stated.
+    """Estimates of an input's fault, whose begin and end may be anywhere while that would have changed nothing.
 
-    There the curvature says nothing, see `instant_interval`. Estimates of other terms are as they were.
+    While an input that stayed is stated not to move, or one that is a share off is stated as zero, the curvature says
+    nothing, see `instant_interval`. Estimates of other terms are as they were.
 
     Args:
         estimates: One for each parameter of the term, in order.
@@ -181,7 +182,7 @@ def of_what_stays(
         doubt: As in `instant_interval`.
     """
     is_of_input = term.recording is not None and model.where(term)[1].channels is None
-    if not is_of_input or not term.parameters[0].is_switch:
+    if not is_of_input:
         return tuple(estimates)
     found = []
     for number, (e, p) in enumerate(zip(estimates, term.parameters)):

@@ -10,6 +10,7 @@ import pytest
 from cosim.scenario import load_scenario
 from diagnosis.candidates.registry import catalogue
 from diagnosis.faults.model import with_faults
+from diagnosis.judge.estimates import estimated
 from diagnosis.models.build import model_of
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.fit import fit
@@ -49,3 +50,30 @@ def test_ends_are_tried_where_the_input_runs_again(tmp_path: Path) -> None:
     assert any(b == pytest.approx(begin, abs=STEP) and e > STEP * IDLE[1] for _, b, e in near)
     costs = fit(model, point, 0).cost, min(fit(model, Point(point.base, {term: n}), 0).cost for n in near)
     assert costs[1] < costs[0] - 100.0
+
+
+def test_ends_that_change_nothing_are_as_good_and_the_interval_holds_them(tmp_path: Path) -> None:
+    """A pump that misses its second stroke was off before it or since the first one ended: no reading says."""
+    stated = np.zeros(COUNT)
+    strokes = ((20, 80), (160, 220), (300, 360))
+    for begin, end in strokes:
+        stated[begin:end] = 0.02
+    given = stated.copy()
+    given[slice(*strokes[1])] = 0.0
+    tank(tmp_path, "200 s", "500 ms")
+    rng = np.random.default_rng(5)
+    level = held(lambda h, q: (q - 0.0203 * h) / 0.495, np.array([0.4]), given, STEP)[:, 0]
+    columns = {"t": STEP * np.arange(COUNT), "q": stated, "h": level + 1e-3 * rng.standard_normal(COUNT)}
+    path = write_recording(
+        tmp_path / "run", columns, {"pump.inflow": ("q", "m^3/s")}, {"tank.level": ("h", "m", "1 mm")}
+    )
+    model = with_faults(model_of(load_scenario(str(tmp_path / "scenario.yaml")), [load_recording(path)], catalogue()))
+    (term,) = [t for t in model.faults() if t.identifier == "input_gain_in_interval"]
+    found = fit(model, Point(np.zeros(len(model.parameters)), {term: (-1.0, 65.0, 120.0)}), 10)
+    gain, begin, end = estimated(model, found, term, 1.0)
+    assert gain.value == pytest.approx(-1.0, abs=0.02)
+    # wider by at most the distance of two instants that are tried, 0.15 of the way
+    for found_end, lower, upper in ((begin, strokes[0][1], strokes[1][0]), (end, strokes[1][1], strokes[2][0])):
+        way = 0.15 * STEP * (upper - lower) + 3.0 * STEP
+        assert STEP * lower - way < found_end.lower < STEP * lower + 3.0 * STEP
+        assert STEP * upper - 3.0 * STEP < found_end.upper < STEP * upper + way
