@@ -16,7 +16,7 @@ from diagnosis.faults.given import GivenFaults, LawsOnly, faults_of, lasting_law
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.masked import MaskedModel
 from diagnosis.models.wrappers.quasi_likelihood import BELIEVED, QuasiLikelihoodModel, inflation
-from diagnosis.search.complete import by_few_terms
+from diagnosis.search.complete import FEW, by_few_terms
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.grow import grow, polished
 from diagnosis.search.objective import bounded
@@ -58,7 +58,17 @@ def search_with_model_error(
     Returns:
         The outcome, and the model that it belongs to.
     """
-    outcome = search(model, model.terms(), settings, model.groups(), on_progress)
+    ones: list[Explanation] = []
+
+    def one_term(base: Fit, margin: float) -> Explanation | None:
+        with suppress(TimeIsOver), may_be_left():
+            ones.append(_few_terms(model, base, margin, settings, on_progress, most=1))
+            return ones[0] if _is_met(model, ones[0]) else None
+        return None
+
+    instead = one_term if model.can_be_searched_again else None
+    outcome = search(model, model.terms(), settings, model.groups(), on_progress, instead=instead)
+    outcome = replace(outcome, one=ones[0]) if ones else outcome
     factor = pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
     if factor.max() <= BELIEVED:
         return _with_fewer_terms(model, outcome, settings, on_progress), model
@@ -98,11 +108,29 @@ def _with_few_terms(
     model: DiagnosisModel, outcome: Outcome, settings: Settings, on_progress: Callable[[str], None]
 ) -> Outcome:
     """The outcome with one or two terms alone, as the best explanation where these leave noise."""
-    few = by_few_terms(LawsOnly(model), outcome.base, lasting_laws(model), settings, outcome.margin, on_progress)
-    if pooled(inflation(few.fit.residuals, model.layout), model.layout).max() > BELIEVED:
+    few = outcome.few or _few_terms(model, outcome.base, outcome.margin, settings, on_progress, outcome.one)
+    if not _is_met(model, few):
         return replace(outcome, few=few)
     left = structure(few.fit.residuals, model.layout, model.groups())
     return replace(outcome, best=few, left=left, rivals=tuple(_once((few, *outcome.rivals))), few=few)
+
+
+def _few_terms(
+    model: DiagnosisModel,
+    base: Fit,
+    margin: float,
+    settings: Settings,
+    on_progress: Callable[[str], None],
+    first: Explanation | None = None,
+    most: int = FEW,
+) -> Explanation:
+    """One or two terms alone that act in all recordings, see `by_few_terms`."""
+    return by_few_terms(LawsOnly(model), base, lasting_laws(model), settings, margin, on_progress, first, most)
+
+
+def _is_met(model: DiagnosisModel, explanation: Explanation) -> bool:
+    """Whether an explanation leaves no more than what noise is believed to be."""
+    return bool(pooled(inflation(explanation.fit.residuals, model.layout), model.layout).max() <= BELIEVED)
 
 
 def _searched_again(

@@ -56,6 +56,8 @@ def by_few_terms(
     settings: Settings,
     margin: float,
     on_progress: Callable[[str], None] = lambda text: None,
+    first: Explanation | None = None,
+    most: int = FEW,
 ) -> Explanation:
     """One or two terms, generic ones among them, in the place of all laws that were found.
 
@@ -68,11 +70,14 @@ def by_few_terms(
         settings: Of the search.
         margin: Gain that a term must exceed.
         on_progress: Told what is being done.
+        first: What it goes on from, where one term was tried already.
+        most: Terms at most.
     """
     pool = _at_places(model, base, terms, terms, settings)
     said = _told(on_progress, "trying one or two terms alone")
-    breadth = Breadth(FEW, FITTED, FINISHED)
-    return shrink(model, _with_more(model, Explanation(base), pool, settings, margin, said, breadth), margin)
+    begun = first or Explanation(base)
+    breadth = Breadth(most - len(begun.terms), FITTED, FINISHED)
+    return shrink(model, _with_more(model, begun, pool, settings, margin, said, breadth), margin)
 
 
 def completed(

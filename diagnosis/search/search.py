@@ -52,6 +52,7 @@ class Outcome:
         nulls: Recordings without any effect that the search was run on.
         first: What was found before the errors of the model were taken into account, where that is another outcome.
         few: One or two terms alone, where they were tried (`diagnosis.search.complete.by_few_terms`).
+        one: The same of one term, where that was tried before.
     """
 
     base: Fit
@@ -65,11 +66,16 @@ class Outcome:
     nulls: int = 0
     first: Outcome | None = None
     few: Explanation | None = None
+    one: Explanation | None = None
 
 
 OnProgress = Callable[[str], None]
 #: From the explanation before and those with one term more, best fit first, to those worth going on with.
 Select = Callable[[Explanation, Sequence[Explanation]], Sequence[Explanation]]
+
+
+#: From the recalibrated model and the margin to what takes the place of the terms that were found, if anything does.
+Instead = Callable[[Fit, float], Explanation | None]
 
 
 def best_fits(before: Explanation, grown: Sequence[Explanation]) -> Sequence[Explanation]:
@@ -134,6 +140,7 @@ def search(
     groups: Mapping[str, Array] | None = None,
     on_progress: OnProgress = lambda text: None,
     select: Select = best_fits,
+    instead: Instead | None = None,
 ) -> Outcome:
     """Find the terms that a model lacks.
 
@@ -144,6 +151,7 @@ def search(
         groups: Groups of channels for the search for structure.
         on_progress: Told what is being done.
         select: Chooses what goes on.
+        instead: Asked once where two terms leave structure: whether one alone explains it.
     """
     laws = [t for t in terms if not t.is_completing]
     on_progress("recalibrating")
@@ -185,7 +193,11 @@ def search(
         current, named = _gone_on_from(grown, settings.beam, best.cost)
         best, rivals = current[0], tuple(grown)
         is_left = not structure(best.fit.residuals, model.layout, groups).is_noise
-        if _is_enough(best, level + 1, is_left, share, settings):
+        is_enough = _is_enough(best, level + 1, is_left, share, settings)
+        is_asked = instead is not None and level == 1 and is_left and not is_enough
+        other = instead(base, margin) if instead is not None and is_asked else None
+        best, rivals = (best, rivals) if other is None else (other, (other, *rivals))
+        if is_enough or other is not None:
             break
     on_progress("removing what is not needed")
     best = shrink(model, best, margin)

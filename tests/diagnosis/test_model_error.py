@@ -14,7 +14,7 @@ from diagnosis import model_error
 from diagnosis.model_error import REFITTED, refitted, search_with_model_error
 from diagnosis.models.protocol import Labelled
 from diagnosis.models.wrappers.quasi_likelihood import QuasiLikelihoodModel, correlation_time, inflation
-from diagnosis.search.fit import fit
+from diagnosis.search.fit import Fit, fit
 from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
 from diagnosis.search.search import Explanation, Outcome, Settings, search
 from diagnosis.search.structure import structure
@@ -251,6 +251,33 @@ def test_where_time_is_over_before_one_term_was_tried_laws_stand(monkeypatch: py
     assert isinstance(model, Halves)
     assert set(outcome.best.terms) == {BENT, WAVE}
     assert outcome.few is None
+
+
+def rough() -> Halves:
+    """Neither both laws nor the one that completes explain the teeth."""
+    return Halves(0.3 + 0.5 * TIME + 3.0 * TIME**2 + 3.0 * np.sin(25.0 * TIME) + 0.8 * (TIME * 4.5 % 1.0), seed=1)
+
+
+def test_where_two_terms_leave_structure_one_alone_is_asked_for_once_before_a_third() -> None:
+    rig, asked = rough(), list[tuple[int, float]]()
+
+    def none(base: Fit, margin: float) -> None:
+        asked.append((len(base.point.terms), margin))
+
+    search(rig, [BENT, WAVE], Settings(), instead=none)
+    assert [terms for terms, _ in asked] == [0]
+    assert asked[0][1] >= 20.0
+    asked.clear()
+    search(halves(3.0), [BENT, WAVE], Settings(), instead=none)
+    assert asked == []  # noise is left
+
+
+def test_one_term_that_explains_what_two_do_not_ends_the_search() -> None:
+    rig = rough()
+    other = Explanation(fit(rig, Point(np.zeros(len(rig.parameters)), {WHOLE: (3.0,)})))
+    found = search(rig, [BENT, WAVE], Settings(), instead=lambda base, margin: other)
+    assert found.best.terms == (WHOLE,)
+    assert found.rivals[0] is other
 
 
 class Waves(Curves):
