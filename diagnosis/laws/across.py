@@ -22,11 +22,13 @@ def across() -> Iterator[Law]:
     >>> [law.formula for law in across()]
     ['a * o', 'a * s * o', 'a * o', 'a * o', 'a * u * o', 'a * y * o']
     """
-    yield _law("far_linear", "law of another component", Role.FAR_RATE, "a * o", "rate/o")
-    yield _law("far_product", "law of a product with another component", Role.FAR_RATE, "a * s * o", "rate/s/o")
+    yield _law("far_linear", "law of a quantity of another component", Role.FAR_RATE, "a * o", "rate/o")
+    yield _law(
+        "far_product", "law of a product with a quantity of another component", Role.FAR_RATE, "a * s * o", "rate/s/o"
+    )
     yield Law(
         "far_parameter_change",
-        "parameter that changes with another component",
+        "parameter that changes with a quantity of another component",
         Role.FAR_PARAMETER,
         "a * o",
         (_SHARE,),
@@ -36,9 +38,11 @@ def across() -> Iterator[Law]:
         series_of=("o",),
         is_completing=True,
     )
-    yield _law("far_input", "law of another component at an input", Role.FAR_INPUT, "a * o", "u/o")
-    yield _law("far_gain", "input that grows or falls with another component", Role.FAR_INPUT, "a * u * o", "1/o")
-    words = "law of a product of an output with another component, at an input"
+    yield _law("far_input", "law of a quantity of another component at an input", Role.FAR_INPUT, "a * o", "u/o")
+    yield _law(
+        "far_gain", "input that grows or falls with a quantity of another component", Role.FAR_INPUT, "a * u * o", "1/o"
+    )
+    words = "product of an output and a quantity of another component, at an input"
     yield _law("far_output_product", words, Role.FAR_PORT, "a * y * o", "u/y/o")
 
 

@@ -228,6 +228,8 @@ def test_a_law_may_use_what_another_component_is_like_and_nothing_connects(folde
     assert {"far_input_of_carriage_s", "far_gain_of_carriage_s"} <= set(rig)
     assert ("far_output_product_of_y_of_carriage_s" in rig) is (integrator == "internal")
     assert all(fit.term.is_completing and not fit.term.is_named for fit in found.values())
+    assert rig["far_gain_of_carriage_s"].beside == "carriage.s"
+    assert integrator == "cvode" or rig["far_output_product_of_y_of_carriage_s"].beside == "y, carriage.s"
     assert rig["far_gain_of_carriage_s"].placed.inputs == (PlacedInput("carriage_s", "carriage.s", "m"),)
     # What the tank gives is nothing that the carriage could not have from it; its own place is no other's.
     carriage = {i.of for (_, place), f in found.items() if place.startswith("carriage.") for i in f.placed.inputs}

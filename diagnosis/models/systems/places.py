@@ -26,7 +26,7 @@ from diagnosis.models.systems.placed import Placed, PlacedDelay, PlacedInput, Pl
 from diagnosis.models.systems.quantities import Places, Quantity, quantity_of
 from diagnosis.models.systems.steps import resolve
 from diagnosis.models.systems.surroundings import hidden_surroundings, surroundings
-from diagnosis.models.systems.targets import AT_PARAMETERS, MODULATED, SURROUNDINGS, is_of, parameter, targets
+from diagnosis.models.systems.targets import ACROSS, AT_PARAMETERS, MODULATED, SURROUNDINGS, is_of, parameter, targets
 from diagnosis.search.problem import Term, TermParameter
 
 #: Points at which the equations are asked whether a state is the derivative of another.
@@ -57,7 +57,8 @@ class Fit:
         placed: In the names of the FMU.
         term: For the search.
         reaction: What is added with it to the other part of which it loses or gets something; None: nothing.
-        beside: Name of that part, of the surroundings where there are several, or of what a parameter changes with;
+        beside: Name of that part, of the surroundings where there are several, of what a parameter changes with, or of
+            the quantities of other components;
             empty where there is one choice.
         read: The same in outputs that are derivatives which it is added to: an accelerometer reads a force that the
             equations of the FMU do not have. Or in one that is the part of a derivative in which it acts.
@@ -360,6 +361,8 @@ def _fit(own: Places, law: Law, to: str, target: Quantity, symbols: Mapping[str,
     others = [n for n in dict.fromkeys((beside, symbols[over].name if over in symbols else "")) if n]
     identifier = law.identifier + "".join(f"_of_{n}" for n in others)
     term = Term(identifier, label, domain, parameters, law.is_named, what, is_completing=law.is_completing)
+    if law.role in ACROSS:
+        beside = ", ".join([*([beside] if law.role is Role.FAR_PORT else []), *(i.of for i in placed.inputs)])
     return Fit(law, placed, term, reaction, beside, read)
 
 

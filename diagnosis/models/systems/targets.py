@@ -33,7 +33,7 @@ AT_PORTS = (
 #: Roles of laws that change a parameter.
 AT_PARAMETERS = (Role.PARAMETER, Role.FAR_PARAMETER)
 #: Roles of laws over a quantity of another component.
-FAR = (Role.FAR_RATE, Role.FAR_PARAMETER, Role.FAR_INPUT, Role.FAR_PORT)
+ACROSS = (Role.FAR_RATE, Role.FAR_PARAMETER, Role.FAR_INPUT, Role.FAR_PORT)
 #: Roles of a state that is known by its unit alone: symbol in formulas, and units. A law of another domain, as of a
 #: concentration, adds its role here.
 OF_A_STATE: Mapping[Role, tuple[str, tuple[str, ...]]] = {
@@ -64,7 +64,7 @@ def targets(own: Places, role: Role) -> Iterator[Target]:
         yield from _at_ports(own, role)
     elif role in MODULATED:
         yield from _modulated(own, role, free)
-    elif role in FAR:
+    elif role in ACROSS:
         yield from _far(own, role, free)
     elif role in (Role.PARAMETER, Role.PAIR):
         yield from _over_another(own, role, free)
