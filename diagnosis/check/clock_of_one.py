@@ -17,8 +17,8 @@ from scipy.optimize import least_squares, minimize_scalar
 
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared, lagged
-from diagnosis.check.clock_jump import INSTANTS, SIZES, Jump, best_jump
 from diagnosis.check.explain import independent
+from diagnosis.check.jump import INSTANTS, SIZES, Jump, best_jump
 from diagnosis.check.timing import percent, resolution
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.series import sample

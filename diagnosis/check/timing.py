@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -12,6 +12,7 @@ from cosim.components import nanoseconds
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import DISCREPANCY, Beside, Compared, direct
 from diagnosis.check.explain import LEVEL, Fit, design, explained, explains, fit, gain
+from diagnosis.check.jump import SIZES, TRIED, best_jump
 from diagnosis.check.quantiles import chi_square_beyond, chi_square_tail
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Channel
@@ -26,6 +27,8 @@ SHIFTS, FACTORS = 24, 16
 FINER = 9
 #: Greatest factor on time that is called a drifting clock; beyond it the unit of time is asked for.
 FASTEST = 0.3
+#: Largest jump of a clock that is tried, as a share of the recording.
+FARTHEST = 0.25
 #: Bends of a sensor's characteristic that are tried, at quantiles of what it should read.
 KNOTS = 8
 #: Share of what the programme leaves that switches at free instants leave at most: with a dozen of them any slow course
@@ -92,7 +95,10 @@ def timing_doubts(compared: Compared, others: Sequence[Compared]) -> list[Doubt]
     own = [_own(compared, b) for b in leads]
     rivals = [*_other_runs(compared, others, leads), *_shifts(compared, leads, own), *_factors(compared, leads, own)]
     rivals = [r for r in rivals if r.gain > critical(4.0) and explains(r.own, r.other)]
-    return [_doubt(compared, max(rivals, key=lambda r: r.gain))] if rivals else []
+    if not rivals:
+        return []
+    best = max(rivals, key=lambda r: r.gain)
+    return [_doubt(compared, _or_jump(compared, leads, own, best))]
 
 
 def switch_doubts(compared: Compared) -> list[Doubt]:
@@ -297,6 +303,37 @@ def _factors(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) ->
     )
     remedy = "compare two instants that both clocks know; correct the column of times or its unit"
     return [Rival("clock", "time", text, remedy, gained, _shares(own), _shares(fits))]
+
+
+def _or_jump(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit], best: Rival) -> Rival:
+    """What explains most, or a clock that is right at first and off from an instant on, or both.
+
+    A clock that is off throughout is one that jumps before anything is driven, and is said in fewer words; one that
+    runs wrong is off by as much in the middle.
+    """
+    bound, span = max(resolution(compared, b.channel) for b in leads), compared.end - compared.begin
+    if not 1.5 * bound < FARTHEST * span:
+        return best
+    price = 2.0 * np.log(TRIED)
+
+    def fits(size: float, at: float) -> list[Fit]:
+        return [explained(b, b, b.times - np.where(b.times >= at, size, 0.0)) for b in leads]
+
+    def lost(jumps: Array) -> Array:
+        every = [[gain(a, f) for a, f in zip(own, fits(size, at))] for size, at in jumps.tolist()]
+        return -np.array([together(leads, own, np.array(gains)) for gains in every])
+
+    jump = best_jump(compared.begin, compared.end, np.geomspace(1.5 * bound, FARTHEST * span, SIZES), lost)
+    gained = -jump.value - price
+    limit = critical(4.0)
+    if gained < best.gain + (-limit if best.kind == "clock" else limit):
+        return best
+    if gained < best.gain + limit:
+        return replace(best, text=f"{best.text}; or {jump.in_words()}: these cannot be told apart")
+    shares = _shares(own), _shares(fits(jump.size, jump.at))
+    text = "{}: so corrected, the programme explains {{other}} of the variance of the readings, as it is {{own}}"
+    remedy = "compare instants before and after that both clocks know; correct the column of times from there on"
+    return Rival("clock", "time", text.format(jump.in_words()), remedy, gained, *shares)
 
 
 def driver(compared: Compared) -> str:

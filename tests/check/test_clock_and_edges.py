@@ -255,3 +255,28 @@ def test_a_clock_that_runs_wrong_does_not_jump(scenario: Scenario, tmp_path: Pat
     path = rig.write(tmp_path / "a", rig.SECOND, rig.readings(rig.SECOND), times=(1.0 + rate) * rig.instants())
     for doubt in shift_doubts(compare(scenario, load_recording(path))):
         assert "from about" not in doubt.statement or "cannot be told apart" in doubt.statement
+
+
+@pytest.mark.parametrize(("at", "late"), [(200.0, -80.0), (300.0, -80.0)])
+def test_a_clock_that_jumps_far_does_not_run_wrong_either(
+    scenario: Scenario, tmp_path: Path, at: float, late: float
+) -> None:
+    times = rig.instants()
+    written = np.where(times >= at, times + late, times)
+    keep = np.concatenate([[True], np.diff(np.maximum.accumulate(written)) > 0.0])
+    path = rig.write(tmp_path / "a", rig.SECOND, rig.readings(rig.SECOND)[keep], times=written[keep])
+    (doubt,) = timing_doubts(compare(scenario, load_recording(path)), [])
+    found = re.search(r"from about ([\d.]+) s on the readings are written about ([\d.]+) s too", doubt.statement)
+    assert found is not None, doubt.statement
+    assert float(found[1]) == pytest.approx(at, abs=0.07 * rig.SPAN)
+    assert float(found[2]) == pytest.approx(abs(late), rel=0.25)
+    assert ("too fast" in doubt.statement or "too slow" in doubt.statement) <= (
+        "cannot be told apart" in doubt.statement
+    )
+
+
+@pytest.mark.parametrize("rate", [0.12, -0.12])
+def test_a_clock_that_runs_far_wrong_does_not_jump(scenario: Scenario, tmp_path: Path, rate: float) -> None:
+    path = rig.write(tmp_path / "a", rig.SECOND, rig.readings(rig.SECOND), times=(1.0 + rate) * rig.instants())
+    for doubt in timing_doubts(compare(scenario, load_recording(path)), []):
+        assert "from about" not in doubt.statement or "cannot be told apart" in doubt.statement
