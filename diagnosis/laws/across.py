@@ -48,8 +48,8 @@ def across() -> Iterator[Law]:
 
 def _law(identifier: str, name: str, role: Role, formula: str, of: str) -> Law:
     strength = Number("a", of, "strength", (0.05, -0.05), 1000.0, None)
-    is_product = formula.count("*") > 1
-    series = ("o",) if is_product else ()
+    factors = formula.split(" * ")[1:]
+    series = tuple(factors) if len(factors) > 1 else ()  # an absolute temperature is no gain by itself
     return Law(
         identifier, name, role, formula, (strength,), _FORM, is_named=False, series_of=series, is_completing=True
     )
