@@ -124,25 +124,24 @@ def assemble(scenario: Scenario) -> Assembly:
     return Assembly(scenario, system, algorithm, start, parameters)
 
 
-def added_inputs(name: str, component: Component) -> Iterator[tuple[str, AddedInputEntry]]:
-    """What the terms of a component use of others, with the keys of where they say so; the last one is the name."""
+def added_inputs(component: Component) -> Iterator[tuple[str, str, AddedInputEntry]]:
+    """What the terms of a component use of others: the key of it in the component, its name there, and what it is."""
     for number, term in enumerate(component.added_terms if isinstance(component, FmuComponent) else ()):
         for own, given in term.inputs.items():
-            yield f"components.{name}.added_terms[{number}].inputs.{own}", given
+            yield f"added_terms[{number}].inputs.{own}", own, given
 
 
 def _to_added_inputs(scenario: Scenario, units: Mapping[str, Unit], source: Path) -> Iterator[Connection]:
     """What leads into inputs that FMUs do not have."""
     for name, component in scenario.components.items():
-        known: dict[str, AddedInputEntry] = {}
-        for key, given in added_inputs(name, component):
-            own = key.rpartition(".")[2]
-            if known.setdefault(own, given) is not given:
-                continue
+        first: dict[str, tuple[str, AddedInputEntry]] = {}
+        for key, own, given in added_inputs(component):
+            first.setdefault(own, (f"components.{name}.{key}", given))
+        for own, (where, given) in first.items():
             fault = _fault_of_source(given.of, units)
             if fault is not None:
-                raise InputError(source, f"{key}.of", *fault)
-            yield _connection(f"{given.of} -> {name}.{own}", f"{key}.unit", units, source)
+                raise InputError(source, f"{where}.of", *fault)
+            yield _connection(f"{given.of} -> {name}.{own}", f"{where}.unit", units, source)
 
 
 def _fault_of_source(of: str, units: Mapping[str, Unit]) -> tuple[str, str] | None:
@@ -242,10 +241,10 @@ def _control(
 
 def _fmu(name: str, component: FmuComponent, parameters: Resolved, scenario: Scenario, source: Path) -> Unit:
     reports_events = getattr(scenario.algorithm, "on_event", "continue") == "synchronise"
-    every = (i.of.partition(".") for n, c in scenario.components.items() for _, i in added_inputs(n, c))
+    every = (i.of.partition(".") for c in scenario.components.values() for *_, i in added_inputs(c))
     known: dict[str, AddedInputEntry] = {}
-    for key, given in added_inputs(name, component):
-        if known.setdefault(key.rpartition(".")[2], given) != given:
+    for key, own, given in added_inputs(component):
+        if known.setdefault(own, given) != given:
             raise InputError(source, key, "another term has this name for something else", "choose another one")
     wanted = [variable for of, _, variable in every if of == name]
     unit = build_fmu(name, component, parameters, source, reports_events, scenario.time.stop.to("s"), wanted)

@@ -457,7 +457,9 @@ class AddedTerms:
         for term in self.inputs:
             own = np.zeros(self.table.all[term.target].variable.shape)
             self._writers[term.target] = binding.writer(self.table.all[term.target], own), own
-        inputs = [n for n, v in self.table.all.items() if v.variable.causality is Causality.INPUT and not v.is_added]
+        inputs = [
+            n for n, v in self.table.exposed.items() if v.variable.causality is Causality.INPUT and not v.is_added
+        ]
         #: Inputs as the FMU has them, and outputs that may hold a parameter.
         self._held = {n: self._writers[n][1] if n in self._writers else values[n] for n in inputs}
         self._changeable_outputs = [

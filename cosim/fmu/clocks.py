@@ -65,7 +65,7 @@ class Clocks:
         self.clocked = {
             n: {c.valueReference for c in v.declared[0].clocks or ()}
             for n, v in variables.items()
-            if v.variable.causality is Causality.INPUT and n not in clocks and not v.is_added and v.declared[0].clocks
+            if v.variable.causality is Causality.INPUT and n not in clocks and v.declared[0].clocks
         }
         self._values = values
         self._inputs = {n: v.value_references[0] for n, v in clocks.items() if v.variable.causality is Causality.INPUT}

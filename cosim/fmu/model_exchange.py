@@ -267,7 +267,7 @@ class ModelExchangeUnit(FmuUnit):
 
     def _pass_on(self, name: str) -> None:
         """An input that jumps is an event: it may switch something whose indicator jumps along with it."""
-        if self._mode is Mode.RUNNING and (name in self.writers or name in self.settings.added_inputs):
+        if self._mode is Mode.RUNNING and name in self.inputs:
             self._enter_event_mode()
         super()._pass_on(name)
 

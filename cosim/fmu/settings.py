@@ -104,11 +104,6 @@ class FmuSettings:
     added_terms: Sequence[AddedTerm] = ()
     wanted: Sequence[str] = ()
 
-    @property
-    def added_inputs(self) -> frozenset[str]:
-        """Inputs that the FMU does not have, which terms alone see."""
-        return frozenset(n for t in self.added_terms for n in t.inputs)
-
 
 class Table:
     """The variables of one FMU and the values that a user gives to them.

@@ -117,6 +117,8 @@ class FmuUnit(Unit):
                 self._take_terms()
             #: Input to the call that sets it.
             self.writers: Mapping[str, Access] = self.buffers.writers
+            #: Inputs but clocks, those that the FMU does not have last.
+            self.inputs = (*self.writers, *(n for n, v in self.table.exposed.items() if v.is_added))
             #: One call for each variable that is read after a step.
             self.readers: list[Access] = self.buffers.readers
             self._mode = Mode.INSTANTIATED
@@ -186,9 +188,7 @@ class FmuUnit(Unit):
         """Hand an input to the FMU, with what is added to inputs."""
         if name in self.writers:
             self.writers[name]()
-        elif name not in self.settings.added_inputs:
-            return
-        if self._mode in (Mode.RUNNING, Mode.EVENT):
+        if name in self.inputs and self._mode in (Mode.RUNNING, Mode.EVENT):
             self._add_to_inputs()
 
     def _add_to_inputs(self) -> None:
@@ -318,15 +318,10 @@ class FmuUnit(Unit):
                 remedy="leave out checkpoints, or export the FMU with canSerializeFMUState",
             )
         self.exit_initialisation()
-        inputs = {f"input.{n}": plain(self.buffers.values[n]) for n in self._inputs}
+        inputs = {f"input.{n}": plain(self.buffers.values[n]) for n in self.inputs}
         extra = {f"extra.{k}": v for k, v in self._checkpoint_extra().items()}
         delayed = {f"delayed.{k}": v for k, v in self.added.delayed.arrays().items()}
         return {"state": self.binding.serialise(), **inputs, **extra, **delayed}
-
-    @property
-    def _inputs(self) -> tuple[str, ...]:
-        """Inputs but clocks, those that the FMU does not have last."""
-        return (*self.writers, *self.settings.added_inputs)
 
     def _checkpoint_extra(self) -> dict[str, np.ndarray[Any, Any]]:
         return {}
@@ -336,7 +331,7 @@ class FmuUnit(Unit):
 
     def resume(self, state: Mapping[str, np.ndarray[Any, Any]], time: int) -> None:
         """Initialise, then restore the serialised state."""
-        for name in self._inputs:
+        for name in self.inputs:
             self.buffers.values[name][...] = unplain(state[f"input.{name}"], self.variables[name].type)
             self._given.add(name)
         self.initialise(time)

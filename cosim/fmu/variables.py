@@ -32,7 +32,8 @@ class FmuVariable:
 
     Args:
         variable: Name, type, shape, unit and causality as every unit declares them.
-        value_references: One for an FMI 3.0 array; one per element, in order, for gathered scalars.
+        value_references: One for an FMI 3.0 array; one per element, in order, for gathered scalars; none of an input
+            that the FMU does not have.
         declared: Its entries in the model description, in the same order.
     """
 
@@ -43,12 +44,12 @@ class FmuVariable:
     @property
     def is_added(self) -> bool:
         """Whether it is an input for added terms alone, of which the FMU knows nothing."""
-        return not self.declared
+        return not self.value_references
 
     @property
     def is_structural(self) -> bool:
         """Whether it sets the size of others (FMI 3.0 structural parameter)."""
-        return not self.is_added and bool(self.declared[0].causality == "structuralParameter")
+        return bool(self.declared[0].causality == "structuralParameter")
 
     @property
     def is_size(self) -> bool:
@@ -58,22 +59,22 @@ class FmuVariable:
     @property
     def is_discrete(self) -> bool:
         """Whether it changes at events only."""
-        return not self.is_added and bool(self.declared[0].variability == "discrete")
+        return bool(self.declared[0].variability == "discrete")
 
     @property
     def is_constant(self) -> bool:
         """Whether nothing may set it."""
-        return not self.is_added and bool(self.declared[0].variability == "constant")
+        return bool(self.declared[0].variability == "constant")
 
     @property
     def has_start(self) -> bool:
         """Whether its start value may be set (initial exact or approx)."""
-        return not (self.is_added or self.is_constant) and self.declared[0].initial in ("exact", "approx")
+        return not self.is_constant and self.declared[0].initial in ("exact", "approx")
 
     @property
     def items(self) -> Mapping[str, int]:
         """Names of an enumeration's items."""
-        kind = None if self.is_added else self.declared[0].declaredType
+        kind = self.declared[0].declaredType
         return {} if kind is None else {i.name: int(i.value) for i in kind.items if i.value is not None}
 
 
@@ -110,7 +111,8 @@ def sizes(description: ModelDescription, structure: Mapping[str, int]) -> Sizes:
 
 def added_input(name: str, unit: str) -> FmuVariable:
     """An input that the FMU does not have: one floating-point number, 0 until the first exchange."""
-    return FmuVariable(Variable(name, Causality.INPUT, (), unit, start=0.0), (), ())
+    declared = ModelVariable(name, causality="input", variability="continuous")
+    return FmuVariable(Variable(name, Causality.INPUT, (), unit, start=0.0), (), (declared,))
 
 
 def declared_array(v: ModelVariable, given: Sizes, units: UnitNames) -> FmuVariable:

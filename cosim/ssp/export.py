@@ -92,7 +92,8 @@ def _structure(export: _Export, assembly: Assembly, only_fmus: bool) -> tuple[Wr
     replaced = Replaced(left_out, parts)
     connected: dict[str, set[str]] = {n: set() for n in parts}
     connections: list[WrittenConnection] = []
-    for given, connection in zip(scenario.connections, assembly.system.connections):  # added inputs come last
+    written = assembly.system.connections[: len(scenario.connections)]  # those into added inputs come last
+    for given, connection in zip(scenario.connections, written, strict=True):
         linear, suppress = _scaling(given)
         if connection.target[0] in left_out:
             continue
@@ -134,11 +135,11 @@ def _check_sources(export: _Export, left_out: Set[str]) -> None:
         InputError: It is of a component that is left out.
     """
     for name, part in export.parts.items():
-        for key, given in added_inputs(name, part.component):
+        for key, _, given in added_inputs(part.component):
             source = given.of.partition(".")[0]
             if source in left_out and name not in left_out:
                 problem = f"{source} is no FMU and is left out, and a term of {name} needs {given.of}"
-                raise InputError(export.source, key, problem, "export the whole scenario")
+                raise InputError(export.source, f"components.{name}.{key}", problem, "export the whole scenario")
 
 
 def _scaling(given: str | ScaledConnection) -> tuple[Linear, bool]:

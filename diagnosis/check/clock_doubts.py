@@ -15,8 +15,11 @@ from diagnosis.check.clock_shift import (
     event_gain,
     growth_gain,
     input_gain,
+    is_drawn,
+    moved_shares,
 )
-from diagnosis.check.explain import explained, explains
+from diagnosis.check.explain import explains
+from diagnosis.check.jump import REMEDY
 from diagnosis.check.timing import between, critical, resolution
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.report.display import instant
@@ -29,9 +32,6 @@ _ELSE = (
     "one input acts later or earlier than it is said to",
 )
 _FASTER = "the rig responds faster than the model says"
-#: Share of variance from which a response draws nearly all of the readings: what the model does not draw moves a
-#: response in time by more than clocks are off where it is a twentieth of it.
-DRAWN = 0.95
 
 
 def shift_doubts(compared: Compared) -> list[Doubt]:
@@ -77,7 +77,7 @@ def _of_shift(compared: Compared, found: Shift, bound: float) -> list[Doubt]:
             return [_of_one(compared, found, over)]
         if is_late:
             return [_late(compared, found, where, over)]
-        if not _is_drawn(compared, found):
+        if not is_drawn(_shares(compared, found)):
             return [_or_else(compared, found, over, _FASTER)]
         return [_decided(compared, found, where, over)]
     # a note names both explanations and chooses none: one test, no price for the shifts that were tried
@@ -109,14 +109,13 @@ def _told_jump(compared: Compared, found: Shift, bound: float) -> ClockJump | No
 def _jumped(compared: Compared, jump: ClockJump) -> Doubt:
     """The doubt where the clock jumps."""
     over = compared.begin, compared.end, float(np.sqrt(jump.gained))
-    remedy = "compare instants before and after that both clocks know; correct the column of times from there on"
     weight = f"no clock that runs wrong explains as much: it gains {jump.gained:.3g} in -2 log likelihood"
     if not jump.is_confirmed:
         (beside,) = asked(compared)
         text = f"{jump.in_words(f'the readings of {beside.channel.name}')}; {weight}; no other channel can confirm it"
-        return Doubt(compared.recording.title, "time", "clock", text, remedy, False, *over)
-    text = f"{jump.in_words('the readings')}; {weight}"
-    return Doubt(compared.recording.title, "time", "clock", text, remedy, True, *over)
+        return Doubt(compared.recording.title, "time", "clock", text, REMEDY, False, *over)
+    text = f"{jump.in_words()}; {weight}"
+    return Doubt(compared.recording.title, "time", "clock", text, REMEDY, True, *over)
 
 
 def _is_followed(compared: Compared, found: Shift) -> bool:
@@ -127,21 +126,11 @@ def _is_followed(compared: Compared, found: Shift) -> bool:
     return explains(0.0, float(np.median([max(pair) for pair in _shares(compared, found)])))
 
 
-def _is_drawn(compared: Compared, found: Shift) -> bool:
-    """Whether the moved response draws nearly all of the readings, or the move takes away most of what is left.
-
-    Of a rig that responds faster than its model, a resonance that is higher, say, a shift takes away a little, by a
-    likelihood that no lag reaches, and leaves a lot.
-    """
-    own, moved = (float(np.median(shares)) for shares in zip(*_shares(compared, found)))
-    return moved > DRAWN or explains(own, moved)
-
-
 def _shares(compared: Compared, found: Shift) -> list[tuple[float, float]]:
     """Share of variance that the response explains of each channel that is asked, as it is and moved."""
     rate = found.rate * found.size if found.is_rate else 0.0
     shift = 0.0 if found.is_rate else found.size
-    return [(explained(b, b).share, explained(b, b, (b.times - shift) / (1.0 + rate)).share) for b in asked(compared)]
+    return moved_shares(asked(compared), lambda times: (times - shift) / (1.0 + rate))
 
 
 def _decided(compared: Compared, found: Shift, where: tuple[str, str, str], over: tuple[float, float, float]) -> Doubt:

@@ -16,17 +16,15 @@ from diagnosis.check.clock_shift import (
     LONGEST,
     SUPPORT,
     asked,
+    is_drawn,
     lag_grid,
+    moved_shares,
     reading_step,
     spread_gain,
     timed_channels,
 )
-from diagnosis.check.explain import explained, explains
-from diagnosis.check.jump import SIZES, TRIED, Jump, best_jump
+from diagnosis.check.jump import SIZES, TRIED, Jump, best_jump, offsets
 from diagnosis.check.timing import critical
-
-#: Share of variance from which a response draws nearly all of the readings, as `clock_doubts` has it for a shift.
-DRAWN = 0.95
 
 
 @dataclass(frozen=True)
@@ -75,10 +73,5 @@ def clock_jump(compared: Compared) -> ClockJump | None:
     is_confirmed = sum(g > SUPPORT for g in gains) > 1
     if len(leads) > 1 and not is_confirmed:
         return None
-    shares = [
-        (explained(b, b).share, explained(b, b, b.times - np.where(b.times >= best.at, best.size, 0.0)).share)
-        for b in leads
-    ]
-    own, moved = (float(np.median(s)) for s in zip(*shares))
-    is_drawn = moved > DRAWN or explains(own, moved)
-    return ClockJump(best.size, best.at, best.value, sum(gains), is_confirmed, is_drawn)
+    shares = moved_shares(leads, lambda times: times - offsets(times, best.size, best.at))
+    return ClockJump(best.size, best.at, best.value, sum(gains), is_confirmed, is_drawn(shares))

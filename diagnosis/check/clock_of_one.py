@@ -18,7 +18,7 @@ from scipy.optimize import least_squares, minimize_scalar
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared, lagged
 from diagnosis.check.explain import independent
-from diagnosis.check.jump import INSTANTS, SIZES, Jump, best_jump
+from diagnosis.check.jump import INSTANTS, SIZES, Jump, best_jump, offsets
 from diagnosis.check.timing import percent, resolution
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.series import sample
@@ -217,7 +217,7 @@ class _Jumped:
 
     def moves(self, beside: Beside) -> Array:
         """Offsets of the readings of any recording, if its clock jumped as long after its begin [s]."""
-        return np.where(_since(beside) >= self.jump.at - self.since, self.jump.size, 0.0)
+        return offsets(_since(beside), self.jump.size, self.jump.at - self.since)
 
     def rest(self, beside: Beside) -> Array:
         """What it leaves of any recording of the channel, SI."""
@@ -243,17 +243,14 @@ def _jumped(beside: Beside, clock: _Clock | None) -> _Jumped | None:
     about = float(np.abs(clock.moves(beside)).max())
     begin, end = float(beside.times[0]), float(beside.times[-1])
 
-    def offsets(size: float, at: float) -> Array:
-        return np.where(beside.times >= at, size, 0.0)
-
     def squares(jumps: Array) -> Array:
-        return np.array([float(np.sum(_rest(beside, offsets(size, at)) ** 2)) for size, at in jumps])
+        return np.array([float(np.sum(_rest(beside, offsets(beside.times, size, at)) ** 2)) for size, at in jumps])
 
     found = best_jump(begin, end, about * np.geomspace(*ABOUT, SIZES), squares)
     apart = (end - begin) / (INSTANTS + 1)
     if not begin + apart < found.at < end - apart:
         return None
-    return _Jumped(found, begin, _left(beside, offsets(found.size, found.at)))
+    return _Jumped(found, begin, _left(beside, offsets(beside.times, found.size, found.at)))
 
 
 def _behind(beside: Beside, lag: float) -> Array:

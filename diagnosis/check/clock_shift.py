@@ -8,7 +8,7 @@ where no lag explains as much.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,8 @@ import numpy as np
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared, direct, lagged
 from diagnosis.check.discrepancy import Likelihoods, Thinned, likelihoods, thin
+from diagnosis.check.explain import explained, explains
+from diagnosis.check.jump import offsets
 from diagnosis.check.late_input import gain_of_late_input
 from diagnosis.check.quantiles import chi_square_beyond
 from diagnosis.check.timing import critical, leading
@@ -34,6 +36,9 @@ MOST_CHANNELS = 2
 TURN = 0.02
 #: Instants at which an event is tried.
 EVENTS = 100
+#: Share of variance from which a response draws nearly all of the readings: what the model does not draw moves a
+#: response in time by more than clocks are off where it is a twentieth of it.
+DRAWN = 0.95
 #: Gain from which a second channel supports a move that is decided by all together: one of 20 by chance.
 SUPPORT = chi_square_beyond(0.05, 1)
 
@@ -196,12 +201,12 @@ def _along(compared: Compared, leads: list[Beside], sizes: Array, lags: Array, u
         float(alone[SHIFTS] - alone.min()),
         float(alone.min() - coarse[SHIFTS, 1]),
         spread_gain(compared, timed, zero, top),
-        is_common([t.deviance.min(axis=1) for t in timed], zero, top),
+        _is_common([t.deviance.min(axis=1) for t in timed], zero, top),
         float(unit[1]),
     )
 
 
-def is_common(profiles: list[Array], zero: int, top: int) -> bool:
+def _is_common(profiles: list[Array], zero: int, top: int) -> bool:
     """Whether two channels or more ask for a move, and none of them for another one.
 
     Args:
@@ -316,6 +321,26 @@ def order(beside: Beside) -> int:
     return 1 if beside.channel.target.domain in ("electrical", "stiffness") else 2
 
 
+def moved_shares(leads: Sequence[Beside], moved: Callable[[Array], Array]) -> list[tuple[float, float]]:
+    """Share of variance that the response explains of each channel, as it is and moved.
+
+    Args:
+        leads: The channels.
+        moved: Times of readings to those of the response [s].
+    """
+    return [(explained(b, b).share, explained(b, b, moved(b.times)).share) for b in leads]
+
+
+def is_drawn(shares: Sequence[tuple[float, float]]) -> bool:
+    """Whether the moved response draws nearly all of the readings, or the move takes away most of what is left.
+
+    Of a rig that responds faster than its model, a resonance that is higher, say, a shift takes away a little, by a
+    likelihood that no lag reaches, and leaves a lot.
+    """
+    own, moved = (float(np.median(s)) for s in zip(*shares))
+    return moved > DRAWN or explains(own, moved)
+
+
 def timed_channels(leads: list[Beside], moves: Array, lags: Array) -> list[Timed]:
     """Likelihood of every channel, see `timed_channel`."""
     return [timed_channel(b, moves, lags) for b in leads]
@@ -357,7 +382,7 @@ def _columns(beside: Beside, times: Array, moves: Array, lags: Array) -> Array:
     for i, (shift, rate, *jump) in enumerate(moves):
         when = (times - shift) / (1.0 + rate)
         if jump:
-            when = when - jump[0] * (times >= jump[1])
+            when = when - offsets(times, *jump)
         for j, rows in enumerate(every):
             found[i, j, 0] = sample(series, when) if not lags[j] else np.interp(when, series.times, rows[0])
             for n, row in enumerate(rows[1:]):

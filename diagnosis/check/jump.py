@@ -12,6 +12,8 @@ from diagnosis.report.display import instant
 
 #: Instants that are tried, and sizes each way; then as many of both about the best, so often.
 INSTANTS, SIZES, FINER, TIMES = 48, 7, 9, 2
+#: What to look at where a clock jumps.
+REMEDY = "compare instants before and after that both clocks know; correct the column of times from there on"
 #: Jumps that are tried first, the price of the best of them.
 TRIED = 2 * SIZES * INSTANTS
 
@@ -41,6 +43,11 @@ class Jump:
             f"from about {instant(self.at, 4)} s on {of} are written about {instant(abs(self.size), 2)} s too {way}: "
             f"the clock {why} there"
         )
+
+
+def offsets(times: Array, size: float, at: float) -> Array:
+    """By how much readings at some times [s] are said to be later than they were."""
+    return np.where(times >= at, size, 0.0)
 
 
 def best_jump(begin: float, end: float, sizes: Array, criterion: Callable[[Array], Array]) -> Jump:

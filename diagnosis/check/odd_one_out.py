@@ -180,6 +180,14 @@ def most_left(channels: Iterable[Beside], share: Callable[[Beside, Array], float
     return max((share(b, b.simulated_there) for b in channels), default=1.0)
 
 
+def left_beside(
+    one: Compared, others: Sequence[Compared], share: Callable[[Beside, Array], float]
+) -> tuple[float, float]:
+    """`most_left` of a recording, and of all others of the rig."""
+    theirs = most_left((b for o in others for b in comparable(o).values()), share)
+    return most_left(comparable(one).values(), share), theirs
+
+
 def as_explained(theirs: float) -> float:
     """What a recording may leave that is explained as well as others which leave so much."""
     return max(ALIKE * theirs, SAME)

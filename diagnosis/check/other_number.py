@@ -8,19 +8,19 @@ what to look at first. One channel proves nothing: some number gives it nearly a
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
-from scipy.optimize import minimize_scalar
 
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.factors import best_logarithm
 from diagnosis.check.input_runs import is_quick, readings_of
-from diagnosis.check.odd_one_out import as_explained, comparable, is_within, most_left, scaled_left
+from diagnosis.check.odd_one_out import as_explained, comparable, is_within, left_beside, scaled_left
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
@@ -33,8 +33,7 @@ CHANNELS = 2
 FARTHEST = 10.0
 #: Factors that are tried first, on either side; between the neighbours of the best one the number is found.
 FACTORS = (1.1, 1.5, 3.0, FARTHEST)
-#: Accuracy of ln(factor).
-EXACT = 1e-3
+_TRIED = sorted([0.0, *(sign * math.log(f) for f in FACTORS for sign in (-1.0, 1.0))])
 #: Numbers that explain a recording beyond which they say nothing.
 MOST = 3
 
@@ -63,8 +62,8 @@ def other_number(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     channels = comparable(one)
     if not is_quick(one.scenario) or len(channels) < CHANNELS:
         return None
-    theirs = most_left((b for o in others for b in comparable(o).values()), scaled_left)
-    before, enough = most_left(channels.values(), scaled_left), as_explained(theirs)
+    before, theirs = left_beside(one, others, scaled_left)
+    enough = as_explained(theirs)
     if before <= enough:
         return None
     try:
@@ -85,23 +84,9 @@ def _each(system: SystemRuns, one: Compared, channels: dict[str, Beside]) -> lis
         def cost(logarithm: float, of: tuple[str, str] = (component, name), at: float = stated) -> float:
             return _left(system.with_number(*of, at * math.exp(logarithm)), one, channels)
 
-        logarithm, left = _best(cost)
+        logarithm, left = best_logarithm(cost, _TRIED)
         found.append(_Explained(f"{component}.{name}", unit, stated, stated * math.exp(logarithm), left))
     return found
-
-
-def _best(cost: Callable[[float], float]) -> tuple[float, float]:
-    """The logarithm of the factor with the least cost, and that cost."""
-    tried = sorted(sign * math.log(f) for f in FACTORS for sign in (-1.0, 1.0))
-    grid = np.array([*tried[: len(FACTORS)], 0.0, *tried[len(FACTORS) :]])
-    costs = np.array([cost(x) for x in grid.tolist()])
-    if not np.isfinite(costs).any():
-        return 0.0, math.inf
-    best = int(np.argmin(np.where(np.isfinite(costs), costs, np.inf)))
-    low, high = grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)]
-    result = minimize_scalar(cost, bounds=(float(low), float(high)), method="bounded", options={"xatol": EXACT})
-    value, least = float(result.x), float(result.fun)
-    return (value, least) if least < costs[best] else (float(grid[best]), float(costs[best]))
 
 
 def _left(results: xr.Dataset | None, one: Compared, channels: dict[str, Beside]) -> float:

@@ -14,22 +14,21 @@ from contextlib import closing
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from cosim.run import RunStopped
 from cosim.unit.quantity import conversion
 from diagnosis.check.beside import Beside, Compared, Course
+from diagnosis.check.factors import best_logarithm
 from diagnosis.check.input_runs import InputRuns, given_as, is_quick, of_one_element, parts_of
-from diagnosis.check.odd_one_out import as_explained, comparable, is_within, left, most_left
-from diagnosis.check.timing import percent
-from diagnosis.check.unit_of_input import WORSE
+from diagnosis.check.odd_one_out import as_explained, comparable, is_within, left, left_beside
+from diagnosis.check.unit_of_input import WORSE, explained_with
 from diagnosis.check.unit_of_one import NEAR, other_units
 from diagnosis.judge.diagnosis import Doubt
 
 #: Factors that are tried first; between the neighbours of the best one the size is found.
 FACTORS = (0.1, 0.2, 0.4, 0.6, 0.8, 1.0, 1.25, 1.7, 2.5, 5.0, 10.0)
-#: Accuracy of ln(factor), and its size from which an input is another.
-EXACT, LEAST = 1e-3, 0.05
+#: ln(factor) from which an input is another.
+LEAST = 0.05
 
 
 @dataclass(frozen=True)
@@ -64,8 +63,8 @@ def size_of_input(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     channels = comparable(one)
     if one.base is None or not channels or not is_quick(one.scenario):
         return None
-    theirs = most_left((b for o in others for b in comparable(o).values()), left)
-    before, enough = most_left(channels.values(), left), as_explained(theirs)
+    before, theirs = left_beside(one, others, left)
+    enough = as_explained(theirs)
     if before < WORSE * enough:
         return None
     moving = [c for c in of_one_element(one) if np.ptp(c.values) > 0.0]
@@ -82,31 +81,18 @@ def _sized(runs: InputRuns, channels: dict[str, Beside], course: Course) -> _Siz
         try:
             readings = runs.readings(channels, (given_as(course, course.times, math.exp(logarithm) * course.values),))
         except RunStopped:
-            return 1e9
-        return min(max(left(b, part) for b, part in zip(channels.values(), parts_of(channels, readings))), 1e9)
+            return math.inf
+        return max(left(b, part) for b, part in zip(channels.values(), parts_of(channels, readings)))
 
-    grid = np.log(FACTORS)
-    costs = [cost(x) for x in grid.tolist()]
-    best = int(np.argmin(costs))
-    ends = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, len(grid) - 1)])
-    finer = minimize_scalar(cost, bounds=ends, method="bounded", options={"xatol": EXACT})
-    if float(finer.fun) < costs[best]:
-        return _Sized(course, math.exp(float(finer.x)), float(finer.fun))
-    return _Sized(course, FACTORS[best], costs[best])
+    logarithm, least = best_logarithm(cost, [math.log(f) for f in FACTORS])
+    return _Sized(course, math.exp(logarithm), least)
 
 
 def _doubt(one: Compared, found: _Sized, before: float, is_within_others: bool) -> Doubt:
     name, units = found.course.name, found.units
     as_if = f", as if it were in {' or '.join(units)} and not in {found.course.unit}," if units else ""
-    text = (
-        f"the scenario explains as little as {percent(max(1.0 - before, 0.0))} of the variance of a channel of this "
-        f"recording; with {found.factor:.3g} times what is stated of {name}{as_if} at least "
-        f"{percent(1.0 - found.left)} of each channel's, about as much as in the other recordings"
-    )
+    what = f"with {found.factor:.3g} times what is stated of {name}{as_if}"
     place = f"`inputs.{name}`" if found.course.is_recorded else f"the course of {name} under `overrides`"
     remedy = f"in what was it written, or did it act by another size? Correct {place} of this recording"
-    z = float(np.sqrt(before / max(found.left, 1e-12)))
-    is_serious = bool(units) or is_within_others
-    return Doubt(
-        one.recording.title, name, "unit" if units else "number", text, remedy, is_serious, one.begin, one.end, z
-    )
+    kind, is_serious = ("unit", True) if units else ("number", is_within_others)
+    return explained_with(one, kind, name, what, (before, found.left), remedy, is_serious)

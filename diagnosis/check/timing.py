@@ -12,7 +12,7 @@ from cosim.components import nanoseconds
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import DISCREPANCY, Beside, Compared, direct
 from diagnosis.check.explain import LEVEL, Fit, design, explained, explains, fit, gain
-from diagnosis.check.jump import SIZES, TRIED, best_jump
+from diagnosis.check.jump import REMEDY, SIZES, TRIED, best_jump, offsets
 from diagnosis.check.quantiles import chi_square_beyond, chi_square_tail
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Channel
@@ -27,6 +27,8 @@ SHIFTS, FACTORS = 24, 16
 FINER = 9
 #: Greatest factor on time that is called a drifting clock; beyond it the unit of time is asked for.
 FASTEST = 0.3
+#: What a clock that is wrong explains, as `Rival.text` has it.
+_CORRECTED = ": so corrected, the programme explains {other} of the variance of the readings, as it is {own}"
 #: Largest jump of a clock that is tried, as a share of the recording.
 FARTHEST = 0.25
 #: Bends of a sensor's characteristic that are tried, at quantiles of what it should read.
@@ -298,8 +300,7 @@ def _factors(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) ->
     low, high = (100.0 * v for v in _interval([(g, s) for g, s, _ in tried], size))
     text = (
         f"the readings' clock runs {100.0 * abs(size):.2g} % too {'fast' if size > 0 else 'slow'} ({low:.2g} to "
-        f"{high:.2g} %, 95 %): so corrected, the "
-        "programme explains {other} of the variance of the readings, as it is {own}"
+        f"{high:.2g} %, 95 %){_CORRECTED}"
     )
     remedy = "compare two instants that both clocks know; correct the column of times or its unit"
     return [Rival("clock", "time", text, remedy, gained, _shares(own), _shares(fits))]
@@ -317,7 +318,7 @@ def _or_jump(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit], be
     price = 2.0 * np.log(TRIED)
 
     def fits(size: float, at: float) -> list[Fit]:
-        return [explained(b, b, b.times - np.where(b.times >= at, size, 0.0)) for b in leads]
+        return [explained(b, b, b.times - offsets(b.times, size, at)) for b in leads]
 
     def lost(jumps: Array) -> Array:
         every = [[gain(a, f) for a, f in zip(own, fits(size, at))] for size, at in jumps.tolist()]
@@ -331,9 +332,7 @@ def _or_jump(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit], be
     if gained < best.gain + limit:
         return replace(best, text=f"{best.text}; or {jump.in_words()}: these cannot be told apart")
     shares = _shares(own), _shares(fits(jump.size, jump.at))
-    text = "{}: so corrected, the programme explains {{other}} of the variance of the readings, as it is {{own}}"
-    remedy = "compare instants before and after that both clocks know; correct the column of times from there on"
-    return Rival("clock", "time", text.format(jump.in_words()), remedy, gained, *shares)
+    return Rival("clock", "time", f"{jump.in_words()}{_CORRECTED}", REMEDY, gained, *shares)
 
 
 def driver(compared: Compared) -> str:

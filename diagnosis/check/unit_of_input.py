@@ -17,7 +17,7 @@ from cosim.run import RunStopped
 from cosim.unit.quantity import conversion
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.input_runs import InputRuns, is_quick, parts_of
-from diagnosis.check.odd_one_out import as_explained, comparable, left, most_left
+from diagnosis.check.odd_one_out import as_explained, comparable, left, left_beside
 from diagnosis.check.timing import percent
 from diagnosis.check.unit_of_one import other_units
 from diagnosis.judge.diagnosis import Doubt
@@ -39,8 +39,8 @@ def unit_of_input(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     channels = comparable(one)
     if one.base is None or not one.recording.inputs or not channels or not is_quick(one.scenario):
         return None
-    theirs = most_left((b for o in others for b in comparable(o).values()), left)
-    before, enough = most_left(channels.values(), left), as_explained(theirs)
+    before, theirs = left_beside(one, others, left)
+    enough = as_explained(theirs)
     if before < WORSE * enough:
         return None
     with closing(InputRuns(one)) as runs:
@@ -63,14 +63,32 @@ def _each(runs: InputRuns, channels: dict[str, Beside], given: Input) -> Iterato
 
 def _doubt(one: Compared, given: Input, units: Sequence[str], before: float, rest: float) -> Doubt:
     name = f"{given.component}.{given.output}"
-    text = (
-        f"the scenario explains as little as {percent(max(1.0 - before, 0.0))} of the variance of a channel of this "
-        f"recording; with its column of {name} in {' or '.join(units)} and not in {given.unit} at least "
-        f"{percent(1.0 - rest)} of each channel's, about as much as in the other recordings"
-    )
+    what = f"with its column of {name} in {' or '.join(units)} and not in {given.unit}"
     remedy = (
         f"in what was this column logged? Correct `inputs.{name}.unit` of this recording, or state under `overrides` "
         "what was another in it"
     )
+    return explained_with(one, "unit", name, what, (before, rest), remedy)
+
+
+def explained_with(
+    one: Compared, kind: str, name: str, what: str, left_of: tuple[float, float], remedy: str, is_serious: bool = True
+) -> Doubt:
+    """The doubt about an input with which, taken otherwise, a recording is explained as the others are.
+
+    Args:
+        one: The recording.
+        kind: Of the doubt.
+        name: Of the input.
+        what: How it is taken.
+        left_of: Largest share of a channel's variance that is left as it is stated, and then.
+        remedy: What to look at.
+        is_serious: Whether nothing is searched.
+    """
+    before, rest = left_of
+    text = (
+        f"the scenario explains as little as {percent(max(1.0 - before, 0.0))} of the variance of a channel of this "
+        f"recording; {what} at least {percent(1.0 - rest)} of each channel's, about as much as in the other recordings"
+    )
     z = float(np.sqrt(before / max(rest, 1e-12)))
-    return Doubt(one.recording.title, name, "unit", text, remedy, True, one.begin, one.end, z)
+    return Doubt(one.recording.title, name, kind, text, remedy, is_serious, one.begin, one.end, z)

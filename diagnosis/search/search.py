@@ -72,8 +72,6 @@ class Outcome:
 OnProgress = Callable[[str], None]
 #: From the explanation before and those with one term more, best fit first, to those worth going on with.
 Select = Callable[[Explanation, Sequence[Explanation]], Sequence[Explanation]]
-
-
 #: From the recalibrated model and the margin to what takes the place of the terms that were found, if anything does.
 Instead = Callable[[Fit, float], Explanation | None]
 
@@ -194,8 +192,8 @@ def search(
         best, rivals = current[0], tuple(grown)
         is_left = not structure(best.fit.residuals, model.layout, groups).is_noise
         is_enough = _is_enough(best, level + 1, is_left, share, settings)
-        is_asked = instead is not None and level == 1 and is_left and not is_enough
-        other = instead(base, margin) if instead is not None and is_asked else None
+        is_asked = level == 1 and is_left and not is_enough
+        other = instead(base, margin) if instead and is_asked else None
         best, rivals = (best, rivals) if other is None else (other, (other, *rivals))
         if is_enough or other is not None:
             break

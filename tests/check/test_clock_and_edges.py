@@ -230,16 +230,21 @@ def test_a_heater_that_opens_is_no_clock(scenario: Scenario, tmp_path: Path) -> 
     assert not any(d.is_serious for d in shift_doubts(one))
 
 
+def jumped(scenario: Scenario, folder: Path, at: float, late: float) -> Compared:
+    """A recording whose clock runs right but for a jump; nothing is written twice where it is set back."""
+    times = rig.instants()
+    written = np.where(times >= at, times + late, times)
+    keep = np.concatenate([[True], np.diff(np.maximum.accumulate(written)) > 0.0])
+    path = rig.write(folder, rig.SECOND, rig.readings(rig.SECOND)[keep], times=written[keep])
+    return compare(scenario, load_recording(path))
+
+
 @pytest.mark.parametrize(("at", "late"), [(310.0, 14.0), (310.0, -25.0), (420.0, 20.0), (250.0, 6.0)])
 def test_a_clock_that_jumps_is_told_with_when_and_by_how_much(
     scenario: Scenario, tmp_path: Path, at: float, late: float
 ) -> None:
     """A logger whose clock stood still or was set: it runs right before and after."""
-    times = rig.instants()
-    written = np.where(times >= at, times + late, times)
-    keep = np.concatenate([[True], np.diff(np.maximum.accumulate(written)) > 0.0])
-    path = rig.write(tmp_path / "a", rig.SECOND, rig.readings(rig.SECOND)[keep], times=written[keep])
-    (doubt,) = shift_doubts(compare(scenario, load_recording(path)))
+    (doubt,) = shift_doubts(jumped(scenario, tmp_path / "a", at, late))
     assert (doubt.kind, doubt.is_serious) == ("clock", True)
     words = "late: the clock was set forward" if late > 0.0 else "early: the clock stood still or was set back"
     found = re.search(
@@ -261,11 +266,7 @@ def test_a_clock_that_runs_wrong_does_not_jump(scenario: Scenario, tmp_path: Pat
 def test_a_clock_that_jumps_far_does_not_run_wrong_either(
     scenario: Scenario, tmp_path: Path, at: float, late: float
 ) -> None:
-    times = rig.instants()
-    written = np.where(times >= at, times + late, times)
-    keep = np.concatenate([[True], np.diff(np.maximum.accumulate(written)) > 0.0])
-    path = rig.write(tmp_path / "a", rig.SECOND, rig.readings(rig.SECOND)[keep], times=written[keep])
-    (doubt,) = timing_doubts(compare(scenario, load_recording(path)), [])
+    (doubt,) = timing_doubts(jumped(scenario, tmp_path / "a", at, late), [])
     found = re.search(r"from about ([\d.]+) s on the readings are written about ([\d.]+) s too", doubt.statement)
     assert found is not None, doubt.statement
     assert float(found[1]) == pytest.approx(at, abs=0.07 * rig.SPAN)

@@ -129,7 +129,7 @@ def test_what_leads_nowhere_is_refused_by_its_key(folder: Path, inputs: str, whe
 
 def test_two_terms_use_one_quantity_by_one_name(folder: Path) -> None:
     other = DRIVE.replace("carriage.s", "drive.u").replace("unit: cm", "unit: V").replace("1/m", "1/V")
-    with pytest.raises(InputError, match=r"added_terms\[1\].inputs.place: another term has this name for something"):
+    with pytest.raises(InputError, match=r": components.rig.added_terms\[1\].inputs.place: another term has this name"):
         run(_scenario(folder, f"{RATE}, {other}"))
     twice = run(_scenario(folder, f"{RATE}, {RATE}"))
     once = run(_scenario(folder, RATE.replace(f"{GAIN} V", f"{2.0 * GAIN} V")))

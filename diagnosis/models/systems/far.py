@@ -36,10 +36,10 @@ def far_quantities(
     """
     fmu = system.fmus[component]
     taken = {*fmu.units, "time"}
-    known = [form for key in courses[0] if key[0] == component for form in _forms(key, courses)]
+    known = [form for key in courses[0] if key[0] == component and (form := _form(key, courses)) is not None]
     found: dict[str, tuple[Quantity, str]] = {}
     for key, name, unit in _others(system, component):
-        form = next(_forms(key, courses), None)
+        form = _form(key, courses)
         if form is None or any(_are_one(form, other) for other in known):
             continue
         known.append(form)
@@ -68,16 +68,15 @@ def _others(system: FastSystem, component: str) -> Iterator[tuple[tuple[str, str
     yield from states
 
 
-def _forms(key: tuple[str, str], courses: Sequence[Mapping[tuple[str, str], Array]]) -> Iterator[Array]:
-    """Course over all recordings from its mean, in its own size; none of what does not move or is no number."""
+def _form(key: tuple[str, str], courses: Sequence[Mapping[tuple[str, str], Array]]) -> Array | None:
+    """Course over all recordings from its mean, in its own size; None of what does not move or is no number."""
     values = [c[key] for c in courses if key in c]
     if not values or any(v.ndim > 1 and v.shape[1] != 1 for v in values):
-        return
+        return None
     whole = np.concatenate([v.reshape(-1) for v in values])
     apart = whole - np.mean(whole)
     size = float(np.sqrt(np.mean(apart**2)))
-    if size > MOVES * float(np.max(np.abs(whole))):
-        yield apart / size
+    return apart / size if size > MOVES * float(np.max(np.abs(whole))) else None
 
 
 def _are_one(one: Array, other: Array) -> bool:

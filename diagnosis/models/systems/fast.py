@@ -92,8 +92,7 @@ class FastSystem:
             if isinstance(unit, FmuUnit):
                 if unit.binding.capabilities.canBeInstantiatedOnlyOncePerProcess:
                     raise NotFast(f"the FMU of {name} can be instantiated only once")
-                of_laws = {i.name: i.unit for i in self._far.get(name, ()) if i.name not in unit.settings.added_inputs}
-                self.fmus[name] = FastFmu(unit, of_laws)
+                self.fmus[name] = FastFmu(unit, {i.name: i.unit for i in self._far.get(name, ())})
             elif not isinstance(unit, ProgrammeUnit):
                 raise NotFast(f"{name} is no FMU")
         self._order()
@@ -201,6 +200,7 @@ class FastSystem:
         system = self.assembly.system
         self._numbers = {name: i for i, name in enumerate(self.fmus)}
         self._copies: list[CopyLayout] = []
+        self._far_copies: list[CopyLayout] = []
         self._sources = self._programme_arrays()
         settle = []
         for action in system.propagation.actions:
@@ -280,7 +280,8 @@ class FastSystem:
         for far in self._far[name]:
             factor, offset = conversion(self._unit_of(far.of), far.unit)
             to = fmu.outer.ctypes.data + 8 * fmu.inputs[far.name].start
-            self._copies.append(CopyLayout(to, self._address_of(far.of), factor, offset))
+            self._far_copies.append(CopyLayout(to, self._address_of(far.of), factor, offset))
+        self._copies += self._far_copies[-len(self._far[name]) :]
         return [
             OperationLayout(Code.COPY, begin, len(self._copies)),
             OperationLayout(Code.PUT, self._numbers[name], 0),
@@ -396,9 +397,9 @@ class FastSystem:
         self._shift_start(changes)
         for fmu in self.fmus.values():
             fmu.take_over()
-        for name, own in self._far.items():
-            for far in own:
-                self._begin_far(self.fmus[name], far)
+        for copy in self._far_copies:  # what laws have of other components before the first exchange
+            value = copy.factor * ctypes.c_double.from_address(copy.source).value + copy.offset
+            ctypes.c_double.from_address(copy.to).value = value
         programmes = (SampledLayout * max(len(sampled), 1))(*sampled)
         units = self._unit_array()
         layout = SystemLayout(
@@ -425,12 +426,6 @@ class FastSystem:
         if done < self.steps or not np.isfinite(self._rows).all():
             return None
         return Rows(self.times, self._rows)
-
-    def _begin_far(self, fmu: FastFmu, far: PlacedInput) -> None:
-        """What a law has of another component before the first exchange."""
-        factor, offset = conversion(self._unit_of(far.of), far.unit)
-        value = ctypes.c_double.from_address(self._address_of(far.of)).value
-        fmu.outer[fmu.inputs[far.name]] = factor * value + offset
 
     def _unit_array(self) -> Any:
         kind = type(next(iter(self.fmus.values())).layout)

@@ -92,9 +92,8 @@ class FastFmu:
         #: Numbers that the FMU is given.
         self.input_count = begin
         #: Inputs that it does not have, with their units, which laws alone see; their places are the last.
-        self.added_inputs = {n: table.all[n].variable.unit for n in sorted(unit.settings.added_inputs)} | dict(
-            far or {}
-        )
+        self.added_inputs = {n: table.all[n].variable.unit for n in unit.inputs if n not in unit.writers}
+        self.added_inputs |= far or {}
         self.inputs |= {n: slice(begin + i, begin + i + 1) for i, n in enumerate(self.added_inputs)}
         self.outer, self.inner, self.held = (np.zeros(begin + len(self.added_inputs)) for _ in range(3))
         self.writers = [

@@ -96,10 +96,11 @@ def _far(own: Places, role: Role, free: Mapping[str, Quantity]) -> Iterator[Targ
         elif role is Role.FAR_PARAMETER:
             for name, changed in own.parameters.items():
                 yield parameter(name), changed.quantity, {"p": changed.quantity, "o": o}
+        elif role is Role.FAR_INPUT:
+            yield from ((n, q, {"u": q, "o": o}) for n, q in own.inputs.items())
         else:
             for name, q in own.inputs.items():
-                shown = own.outputs.values() if role is Role.FAR_PORT else (None,)
-                yield from ((name, q, {"u": q, "o": o, **({} if y is None else {"y": y})}) for y in shown)
+                yield from ((name, q, {"u": q, "o": o, "y": y}) for y in own.outputs.values())
 
 
 def _modulated(own: Places, role: Role, free: Mapping[str, Quantity]) -> Iterator[Target]:
