@@ -24,9 +24,6 @@ LEAST = 6.0
 ERRORS = 2.0
 #: Stretches of time from which the scatter of a gain between them is known.
 FEWEST = 8
-#: Variance of the difference of two squares, (e - m)^2 and (e - n)^2, of three independent draws e, m and n of equal
-#: variance, by the square of the variance of e - m: (n - m)(2 e - m - n) has 2 times 6, by 4.
-DRAWN = 3.0
 #: Scatter by which a residual differs from both neighbours that stands out alone; noise does in one of 80,000.
 ALONE = 5.0
 #: Median size of the difference of two independent normal numbers.
@@ -45,7 +42,8 @@ class Gain:
         error: Its standard error by blocks, at least `white`: errors of a model are alike for a while.
         loss_error: The same if the first model is right.
         scatter: Its standard error from how the gain differs between stretches; infinite where they are too few.
-        drawn: Its standard error where each model is one run of contacts that scatter, if both are equally right.
+        drawn: Its standard error where each model is a mean of runs of contacts that scatter, if both are equally
+            right.
         shown: Root mean square by which the two predictions differ in the channel where they differ most, in deviations
             of the noise.
         worse: Channels (`channel of recording`) that are predicted significantly worse.
@@ -72,7 +70,7 @@ class Gain:
         """Gain from which it counts.
 
         Odds of 20 to 1 by as many readings as are independent of each other, or twice the scatter between stretches. Of
-        contacts also twice what two runs of one model gain over each other.
+        contacts also twice what two predictions of one model gain over each other.
         """
         excess = float(np.sqrt(max(self.error**2 - self.white**2, 0.0)))
         least = min(max(LEAST * self.doubt**2, ERRORS * excess), max(LEAST, ERRORS * self.scatter))
@@ -119,7 +117,7 @@ def gain(without: Predicted, with_it: Predicted, readings: Readings) -> Gain:
     reverse = _summed(second, first, readings.block, readings.weight)
     scatter = _scatter(readings.weight * (loss(first) - loss(second)), readings)
     worse, rising = worse_channels(without.residuals, with_it.residuals, readings)
-    drawn = float(np.sqrt(DRAWN * np.sum(readings.weight * readings.scattered)))
+    drawn = float(np.sqrt(np.sum(readings.weight * readings.drawn)))
     return Gain(total, found[1], found[2], reverse[2], scatter, drawn, shown, worse, rising)
 
 

@@ -87,11 +87,18 @@ class Readings:
         return np.asarray(found[self.channel])
 
     @cached_property
-    def scattered(self) -> Array:
-        """Square of the share of each one's variance that is scatter of the simulation, times more where channels
-        scatter together."""
-        together = np.array([c.scatter_together for c in self.channels])
-        return np.asarray((self._shares**2 * together)[self.channel])
+    def drawn(self) -> Array:
+        """Variance of what two predictions of one model gain over each other in each reading, as each is a mean of runs
+        that scatter; more where channels scatter together.
+
+        For a reading e and two means m and n of k runs, all independent, of the variances s^2, s^2/k and s^2/k,
+        (e - m)^2 - (e - n)^2 = (n - m)(2 e - m - n) has the variance (2/k)(4 + 2/k) s^4, and e - m has (1 + 1/k) s^2,
+        which is the scatter.
+        """
+        shared = np.array([c.scatter_together / c.scatter_runs for c in self.channels])
+        runs = np.array([c.scatter_runs for c in self.channels], dtype=np.float64)
+        factor = 2.0 * (4.0 + 2.0 / runs) / (1.0 + 1.0 / runs) ** 2
+        return np.asarray((self._shares**2 * shared * factor)[self.channel])
 
     @cached_property
     def _shares(self) -> Array:

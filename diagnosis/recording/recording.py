@@ -64,6 +64,7 @@ class Channel:
         scatter: Part of `deviation` by which the simulation scatters by itself (contacts), SI; it is not white.
         scatter_together: How many times more the sum of squares over all channels varies by it than if each channel
             scattered by itself.
+        scatter_runs: Simulations whose mean a prediction of it is.
         is_of_each_reading: Whether the deviation was given for each reading, as a camera's tracks have it: it may hold
             what neighbours share.
     """
@@ -84,6 +85,7 @@ class Channel:
     later: float = 0.0
     scatter: float = 0.0
     scatter_together: float = 1.0
+    scatter_runs: int = 1
     is_of_each_reading: bool = False
 
     @property

@@ -13,7 +13,7 @@ from diagnosis.candidates.registry import catalogue
 from diagnosis.models.build import model_of
 from diagnosis.models.fabric.amended import amend_fabric
 from diagnosis.models.fabric.laws import fabric_laws
-from diagnosis.models.fabric.model import START_SPEED, FabricModel
+from diagnosis.models.fabric.model import PREDICTED, START_SPEED, FabricModel
 from diagnosis.models.fabric.search import search_fabric
 from diagnosis.recording.quantity import parse_quantity
 from diagnosis.search.cosim_run import predicted
@@ -47,8 +47,9 @@ def test_a_scenario_with_a_fabric_is_diagnosed_by_network_and_bullet(found):
 
 def test_bullet_driven_by_the_network_moves_like_the_closed_co_simulation(found, short):
     closed = run(shortened(small(), 0.5))
-    values = found.predict(Point(np.zeros(len(found.parameters))), 0)
-    names = list(short.channels)
+    point = Point(np.zeros(len(found.parameters)))
+    (values,) = found.fabric_runs.make([(0, found.fabric_parameters(point, 0), found.network_point(point))])
+    names = list(found.mechanical_recordings[0].channels)
     worst = 0.0
     for name in MARKERS:
         channel = short.channels[name]
@@ -58,6 +59,28 @@ def test_bullet_driven_by_the_network_moves_like_the_closed_co_simulation(found,
         worst = max(worst, float(np.abs(own - same).max()))
     # stiffness agrees to 1e-9; contacts amplify it, by less than a micrometre within a tenth of a second
     assert worst < 1e-6
+
+
+def test_a_prediction_is_the_mean_of_runs_from_starts_of_their_own(found):
+    """Of the scenario's start and two others; they are not the same run."""
+    point = Point(np.zeros(len(found.parameters)))
+    tasks = [(0, found.fabric_parameters(point, 0, s), found.network_point(point)) for s in range(PREDICTED)]
+    runs = found.fabric_runs.make(tasks)
+    last = len(found.mechanical_recordings[0].channels) - 1
+    np.testing.assert_allclose(found.predict(point, 0)[-1], np.mean([r[last] for r in runs], axis=0), rtol=1e-12)
+    assert PREDICTED == len({r[last].tobytes() for r in runs}) == 3
+    assert {s.channel.scatter_runs for s in found.runs[0].series if s.channel.name in MARKERS} == {3}
+
+
+def test_a_prediction_of_which_one_run_stops_is_not_finite(found, monkeypatch):
+    """The two that go on would hide it."""
+    made = found.fabric_runs.make
+
+    def stopping(tasks):
+        return [None if "start_number" in given else values for (_, given, _), values in zip(tasks, made(tasks))]
+
+    monkeypatch.setattr(found.fabric_runs, "make", stopping)
+    assert np.all(np.isinf(found.predict(Point(np.zeros(len(found.parameters))), 0)[-1]))
 
 
 def test_every_effect_is_a_parameter_that_the_scenario_takes(found):
@@ -84,9 +107,9 @@ def test_what_was_found_is_a_scenario_that_runs(found, tmp_path):
     assert numbers["slide_friction"].to("N") == 0.3
     assert numbers["friction"].number == pytest.approx(0.5329 * np.exp(0.1))
     results = run(shortened(amended, 0.1))
-    own = found.predict(Point(base, {tilt: (0.06,), slide: (0.3,)}), 0)
-    first = list(found.mechanical_recordings[0].channels).index("marker[10].z")
-    place = len(own) - len(found.mechanical_recordings[0].channels) + first
+    point = Point(base, {tilt: (0.06,), slide: (0.3,)})
+    (own,) = found.fabric_runs.make([(0, found.fabric_parameters(point, 0), found.network_point(point))])
+    place = list(found.mechanical_recordings[0].channels).index("marker[10].z")
     early = found.mechanical_recordings[0].channels["marker[10].z"].times <= 0.1
     series = predicted(results, parse_quantity("marker[10].z"), np.array([0.05, 0.1]), path)
     # daily numbers are at their nominal values here, so both are one model

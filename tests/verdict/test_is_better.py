@@ -13,7 +13,7 @@ COUNT = 400
 def readings() -> Readings:
     zeros = np.zeros(COUNT, dtype=int)
     block = np.repeat(np.arange(10), COUNT // 10)
-    channel = SimpleNamespace(name="coil[1].temperature", scatter=0.0, scatter_together=1.0)
+    channel = SimpleNamespace(name="coil[1].temperature", scatter=0.0, scatter_together=1.0, scatter_runs=1)
     return Readings(zeros, zeros, block, zeros.astype(bool), np.arange(COUNT), (channel,), (0,), ("held out",))
 
 

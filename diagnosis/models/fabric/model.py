@@ -51,6 +51,9 @@ from diagnosis.search.unit_law import UnitLaw
 START_SPEED = 1e-3
 #: Share of the time of a recording that is simulated first where it is asked whether anything moves at all.
 BEGIN = 0.1
+#: Simulations from starts of their own whose mean is a prediction. Of three, half the gain is needed that chance brings
+#: where one run is compared with another (docs/decisions/0033-means-of-several-runs.md).
+PREDICTED = 3
 
 
 class FabricModel(ModelBase):
@@ -193,6 +196,7 @@ class FabricModel(ModelBase):
                     deviation=float(np.hypot(c.deviation, scatter)),
                     scatter=scatter,
                     scatter_together=self._scatter.together,
+                    scatter_runs=PREDICTED,
                 )
                 own.append(ComparedSeries(both, np.arange(len(c.times)), ~c.is_clipped))
             found.append(compared_run((*electrical, *own)))
@@ -422,14 +426,16 @@ class FabricModel(ModelBase):
         )
 
     def predict(self, point: Point, run: int) -> list[Array]:
-        """Simulated values of every channel of a recording at its samples, SI; by Bullet, never by the surface."""
+        """Values of every channel of a recording at its samples, SI: the mean of `PREDICTED` simulations of the fabric,
+        never the surface; infinite where one of them stopped."""
         own = self.network_point(point)
         first = list(self.network.predict(own, run)) if self.network else []
-        found = self.fabric_runs.make([(run, self.fabric_parameters(point, run), own)])[0]
+        made = self.fabric_runs.make([(run, self.fabric_parameters(point, run, s), own) for s in range(PREDICTED)])
         channels = self.mechanical_recordings[run].channels.values()
-        if found is None:
+        whole = [m for m in made if m is not None]
+        if len(whole) < len(made):
             return [*first, *(np.full(len(c.times), np.inf) for c in channels)]
-        own_channels = found[: len(channels)]
+        own_channels = [np.mean(runs, axis=0) for runs in list(zip(*whole))[: len(channels)]]
         seen = self._cameras[run].seen(np.concatenate(own_channels), point.terms)
         return [*first, *np.split(seen, np.cumsum([len(v) for v in own_channels])[:-1])]
 
