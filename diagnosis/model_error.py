@@ -66,8 +66,7 @@ def search_with_model_error(
             return ones[0] if _is_met(model, ones[0]) else None
         return None
 
-    instead = one_term if model.can_be_searched_again else None
-    outcome = search(model, model.terms(), settings, model.groups(), on_progress, instead=instead)
+    outcome = search(model, model.terms(), settings, model.groups(), on_progress, instead=one_term)
     outcome = replace(outcome, one=ones[0]) if ones else outcome
     factor = pooled(inflation(outcome.best.fit.residuals, model.layout), model.layout)
     if factor.max() <= BELIEVED:

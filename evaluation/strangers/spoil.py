@@ -111,7 +111,7 @@ class Files:
         entry = self.channels[name]
         clock = entry.get("time", self.keys["time"])
         found = self.table(entry)[clock["column"]]
-        return found - found[0]
+        return np.asarray(found - found[0])
 
     def courses(self) -> dict[str, list[list[str]]]:
         """`component.output` to its rows of instant and level under `overrides`, where it has three or more."""

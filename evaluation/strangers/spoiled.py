@@ -34,7 +34,7 @@ RIGHT = {
     "swapped": ("swapped",),
     "clock": ("clock",),
     "sensor": ("sensor", "range", "noise"),
-    "input": ("input", "programme", "other run"),
+    "input": ("input", "programme", "other run", "number"),
 }
 #: What says no more than that a recording is not like the others, or that its readings do not follow.
 OPEN = ("odd one out", "no answer")
