@@ -241,6 +241,8 @@ def _jumped(beside: Beside, clock: _Clock | None) -> _Jumped | None:
     if clock is None:
         return None
     about = float(np.abs(clock.moves(beside)).max())
+    if not about:  # no clock makes it better
+        return None
     begin, end = float(beside.times[0]), float(beside.times[-1])
 
     def squares(jumps: Array) -> Array:

@@ -94,6 +94,15 @@ def test_a_clock_that_jumps_does_not_run_wrong(late: float, words: str, tmp_path
     assert "%" not in told.statement.split("but", 1)[1].replace(found[0], "").split("if")[1]
 
 
+def test_where_the_best_clock_is_the_stated_one_no_jump_is_looked_for(tmp_path: Path) -> None:
+    """As of a sensor with the opposite sign: no clock makes it better."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
+    beside = _compared(tmp_path, recordings)[1].channels["rig.position"]
+    nothing = clock_of_one._Clock(0.0, 0.0, 1e-6, 4.0, 1.0)
+    assert clock_of_one._jumped(beside, nothing) is None
+
+
 def test_of_two_recordings_none_is_named_and_of_good_ones_none(tmp_path: Path) -> None:
     oscillator(tmp_path)
     recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
