@@ -39,6 +39,7 @@ from evaluation.strangers import (
     thirteenth_set,
     twelfth_set,
     twentieth_set,
+    twenty_fifth_set,
     twenty_first_set,
     twenty_fourth_set,
     twenty_second_set,
@@ -72,6 +73,7 @@ SETS = {
     "twenty_second": twenty_second_set.CASES,
     "twenty_third": twenty_third_set.CASES,
     "twenty_fourth": twenty_fourth_set.CASES,
+    "twenty_fifth": twenty_fifth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
