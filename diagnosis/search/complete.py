@@ -155,8 +155,12 @@ def _scored(model: Model, base: Fit, terms: Sequence[Term], settings: Settings) 
 
 
 def _at_places(model: Model, base: Fit, terms: Sequence[Term], added: Sequence[Term], settings: Settings) -> list[Term]:
-    """Terms that may be added at the places at which something scores best, and at those that hold all elements."""
-    near = [t for t in focus(model, base.residuals, terms) if not t.is_completing]
+    """Terms that may be added at the places at which something scores best, and at those that hold all elements.
+
+    A law that completes singles out a place too where its strength is its only number, which costs one simulation: what
+    is missing may have no shape but its own, and laws of other shapes at its place score less than some elsewhere.
+    """
+    near = [t for t in focus(model, base.residuals, terms) if not t.is_completing or len(t.parameters) == 1]
     ranked = _scored(model, base, near, settings)
     places = list(dict.fromkeys(s.term.place for s in ranked[:40]))[:PLACES]
     places += [t.place for t in base.point.terms]

@@ -14,9 +14,10 @@ from diagnosis import model_error
 from diagnosis.model_error import REFITTED, refitted, search_with_model_error
 from diagnosis.models.protocol import Labelled
 from diagnosis.models.wrappers.quasi_likelihood import QuasiLikelihoodModel, correlation_time, inflation
+from diagnosis.search.complete import by_few_terms
 from diagnosis.search.fit import Fit, fit
 from diagnosis.search.problem import Layout, Parameter, Point, Term, TermParameter
-from diagnosis.search.search import Explanation, Outcome, Settings, search
+from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search
 from diagnosis.search.structure import structure
 from diagnosis.search.validation import BLOCKS, Validated, Validation, blocks, chosen
 from tests.search.line_model import BEND, LID, STEP, TERMS, TIME, WAVE, LineModel
@@ -278,6 +279,48 @@ def test_one_term_that_explains_what_two_do_not_ends_the_search() -> None:
     found = search(rig, [BENT, WAVE], Settings(), instead=lambda base, margin: other)
     assert found.best.terms == (WHOLE,)
     assert found.rivals[0] is other
+
+
+@pytest.mark.parametrize("can_be_searched_again", [True, False])
+def test_one_term_alone_is_asked_for_however_long_the_recordings_are(
+    can_be_searched_again: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It costs a part of the search that it may end; other searches are as long as that itself."""
+    monkeypatch.setattr(model_error, "BELIEVED", 1e9)  # what comes after the search is not asked here
+    rig = rough()
+    rig.can_be_searched_again = can_be_searched_again
+    said: list[str] = []
+    outcome, _ = search_with_model_error(rig, Settings(), said.append)
+    assert outcome.one is not None
+    assert any("one or two terms alone" in text for text in said)
+
+
+#: Laws that complete, at a place where no other law acts: a strength alone, and one with a shape.
+THERE = replace(WAVE, identifier="there", place="elsewhere", is_completing=True)
+SHAPED = replace(
+    THERE, identifier="shaped", parameters=(*WAVE.parameters, TermParameter("knot", "s", 0.0, 1.0, (0.5,)))
+)
+
+
+class Elsewhere(Rig):
+    """What is missing acts where no law of the search does."""
+
+    def terms(self) -> list[Term]:
+        return [BEND, STEP, LID, THERE, SHAPED]
+
+    def signal(self, point: Point) -> np.ndarray:
+        terms = {WAVE if t in (THERE, SHAPED) else t: v for t, v in point.terms.items()}
+        return super().signal(Point(point.base, terms))
+
+
+def test_a_strength_that_completes_singles_out_its_place() -> None:
+    """Laws elsewhere score something, and none does there."""
+    rig = Elsewhere(0.3 + 0.5 * TIME + 0.6 * np.sin(25.0 * TIME), seed=1)
+    base = recalibrate(rig)
+    found = by_few_terms(rig, base, rig.terms(), Settings(), 20.0, most=1)
+    assert found.terms == (THERE,)
+    assert found.fit.point.terms[THERE][0] == pytest.approx(0.6, abs=0.03)
+    assert by_few_terms(rig, base, [BEND, STEP, LID, SHAPED], Settings(), 20.0, most=1).terms != (SHAPED,)
 
 
 class Waves(Curves):
