@@ -38,6 +38,8 @@ RIGHT = {
 }
 #: What says no more than that a recording is not like the others, or that its readings do not follow.
 OPEN = ("odd one out", "no answer")
+#: Recordings that are refused in words, as too few readings are.
+REFUSED = "refused"
 
 
 def main() -> int:
@@ -63,10 +65,10 @@ def main() -> int:
 
 def summary(answers: Sequence[dict[str, Any]]) -> str:
     """Counts of answers by kind of fault, as a table."""
-    lines = ["| fault | cases | named | stands out | silent | false |", "|---|---|---|---|---|---|"]
+    lines = ["| fault | cases | named | stands out | silent | false | refused |", "|---|---|---|---|---|---|---|"]
     for kind in (*RIGHT, "nothing"):
         found = Counter(a["answer"] for a in answers if a["fault"] == kind)
-        counts = " | ".join(str(found[k]) for k in ("named", "stands out", "silent", "false"))
+        counts = " | ".join(str(found[k]) for k in ("named", "stands out", "silent", "false", REFUSED))
         lines.append(f"| {kind} | {sum(found.values())} | {counts} |")
     return "\n".join(lines)
 
@@ -117,7 +119,7 @@ def _checked(task: Path, names: Sequence[str]) -> list[dict[str, Any]]:
     try:
         found = check_recordings(load_scenario(task / "scenario.yaml"), [load_recording(task / n) for n in names])
     except InputError as error:
-        return [{"recording": "", "subject": "", "kind": "refused", "statement": str(error), "is_serious": True}]
+        return [{"recording": "", "subject": "", "kind": REFUSED, "statement": str(error), "is_serious": True}]
     keys = ("recording", "subject", "kind", "statement", "is_serious")
     return [{k: getattr(d, k) for k in keys} for d in found]
 
@@ -125,6 +127,8 @@ def _checked(task: Path, names: Sequence[str]) -> list[dict[str, Any]]:
 def _scored(fault: Fault | None, doubts: Sequence[dict[str, Any]]) -> dict[str, str]:
     """What was done, and whether the serious doubts say so."""
     serious = [d for d in doubts if d["is_serious"]]
+    if any(d["kind"] == REFUSED for d in serious):
+        return {"fault": fault.kind if fault else "nothing", "told": "", "answer": REFUSED, "says": ""}
     says = "; ".join(f"{d['recording']}, {d['subject']}: {d['kind']}" for d in serious)
     if fault is None:
         return {"fault": "nothing", "told": "", "answer": "false" if serious else "silent", "says": says}

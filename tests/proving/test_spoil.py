@@ -186,6 +186,7 @@ def doubt(recording: str, subject: str, kind: str, is_serious: bool = True) -> d
         ([doubt("day 1", "pot.bath", "unit")], "named"),
         ([doubt("day 1", "all channels", "odd one out")], "stands out"),
         ([doubt("day 2", "pot.bath", "unit")], "false"),
+        ([doubt("", "", "refused")], "refused"),
         ([doubt("day 1", "pot.lid", "unit")], "false"),
         ([doubt("day 1", "pot.bath", "clock")], "false"),
         ([doubt("day 1", "pot.bath", "unit"), doubt("day 1", "pot.lid", "swapped")], "false"),
@@ -194,10 +195,11 @@ def doubt(recording: str, subject: str, kind: str, is_serious: bool = True) -> d
 def test_an_answer_is_false_where_it_says_what_was_not_done(doubts: list[dict[str, object]], answer: str) -> None:
     fault = Fault("unit", "day_1", ("pot.bath",), "")
     assert _scored(fault, doubts)["answer"] == answer
-    assert _scored(None, doubts)["answer"] == ("false" if any(d["is_serious"] for d in doubts) else "silent")
+    if answer != "refused":
+        assert _scored(None, doubts)["answer"] == ("false" if any(d["is_serious"] for d in doubts) else "silent")
 
 
 def test_the_table_counts_each_answer_once() -> None:
     answers = [{"fault": "unit", "answer": "named"}, {"fault": "unit", "answer": "false"}]
-    assert "| unit | 2 | 1 | 0 | 0 | 1 |" in summary(answers)
-    assert "| nothing | 0 | 0 | 0 | 0 | 0 |" in summary(answers)
+    assert "| unit | 2 | 1 | 0 | 0 | 1 | 0 |" in summary(answers)
+    assert "| nothing | 0 | 0 | 0 | 0 | 0 | 0 |" in summary(answers)
