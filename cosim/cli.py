@@ -24,7 +24,7 @@ from cosim.commands.group import Commands
 from cosim.commands.play import play
 from cosim.commands.sweep import sweep
 from cosim.commands.track import track
-from cosim.interrupt import keep_swallowed_interrupts
+from cosim.interrupt import end_as_interrupt, keep_swallowed_interrupts
 from cosim.loading import load_scenario
 from cosim.options import Changes, Formats, ScenarioArgument, complete_scenario, formats_of, show_version
 from cosim.run_folder import RunFolder
@@ -302,6 +302,7 @@ def _check_working_folder() -> None:
 def main() -> NoReturn:
     """Entry point: every foreseen error becomes one message and an exit code."""
     keep_swallowed_interrupts()
+    end_as_interrupt()
     gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS)
     atexit.register(gc.freeze)  # or Python looks through all objects before it ends: a fifth of the time of `validate`
     if hasattr(sys.stdout, "reconfigure"):  # a name that the terminal's encoding does not have ends no command

@@ -1,10 +1,14 @@
-"""Ctrl-C that stops a run between two macro-steps, not inside ngspice, an FMU or Bullet, and is never lost."""
+"""Ctrl-C that stops a run between two macro-steps, not inside ngspice, an FMU or Bullet, and is never lost.
+
+SIGTERM, by which `timeout` and schedulers of jobs announce that a command's time is over, is the same.
+"""
 
 from __future__ import annotations
 
 import signal
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -12,6 +16,8 @@ from types import FrameType
 
 #: Time after which a Ctrl-C that was swallowed is sent again: the callback has ended by then [s].
 AGAIN = 0.05
+#: Signals to end that come within this time are one: `timeout` sends its own to the process and to its group [s].
+ONE = 1.0
 
 
 @dataclass
@@ -72,6 +78,26 @@ def first_interrupt(ask: Callable[[], bool]) -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGINT, previous)
+
+
+def end_as_interrupt() -> None:
+    """Take SIGTERM as a Ctrl-C: from now on, in this process.
+
+    Without it nothing of a long command would be kept or answered. The second one, or a Ctrl-C after it, acts at once.
+    Outside the main thread nothing is changed.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        return
+    last = -ONE
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        nonlocal last
+        now = time.monotonic()
+        if now - last >= ONE:
+            last = now
+            signal.raise_signal(signal.SIGINT)
+
+    signal.signal(signal.SIGTERM, interrupt)
 
 
 def keep_swallowed_interrupts() -> None:

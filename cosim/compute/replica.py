@@ -11,7 +11,8 @@ from multiprocessing.connection import Connection
 
 def main() -> None:
     """Answer lists of questions; None for a list of which one raised an error."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # a terminal sends Ctrl-C to all; the first process ends this one
+    for number in (signal.SIGINT, signal.SIGTERM):  # they go to all of a group; the first process ends this one
+        signal.signal(number, signal.SIG_IGN)
     line = Connection(int(sys.argv[1]))
     with contextlib.suppress(EOFError, OSError):
         make, given = pickle.loads(line.recv_bytes())

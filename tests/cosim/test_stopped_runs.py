@@ -13,7 +13,7 @@ import pytest
 import xarray as xr
 
 from circuit.unit import CircuitUnit
-from cosim.interrupt import deferred_interrupt, first_interrupt
+from cosim.interrupt import deferred_interrupt, end_as_interrupt, first_interrupt
 from cosim.run import Progress, RunStopped, run
 from cosim.run_folder import RunFolder, read_checkpoint
 from cosim.scenario import load_scenario
@@ -144,6 +144,29 @@ def test_an_interrupt_that_is_taken_does_no_more_and_the_next_one_acts_at_once()
     with first_interrupt(lambda: False), pytest.raises(KeyboardInterrupt):
         os.kill(os.getpid(), signal.SIGINT)
     assert signal.getsignal(signal.SIGINT) is before
+
+
+@pytest.fixture
+def _ended_as_interrupt():
+    before = signal.getsignal(signal.SIGTERM)
+    end_as_interrupt()
+    yield
+    signal.signal(signal.SIGTERM, before)
+
+
+@pytest.mark.usefixtures("_ended_as_interrupt")
+def test_a_signal_to_end_is_an_interrupt_and_its_echo_from_the_group_is_none(monkeypatch):
+    """`timeout` sends its signal to the process, and at once to the process's group."""
+    now = [100.0]
+    monkeypatch.setattr("cosim.interrupt.time.monotonic", lambda: now[0])
+    with deferred_interrupt() as interrupt:
+        os.kill(os.getpid(), signal.SIGTERM)
+        assert interrupt.is_requested
+        now[0] += 0.01
+        os.kill(os.getpid(), signal.SIGTERM)
+        now[0] += 2.0
+        with pytest.raises(KeyboardInterrupt):
+            os.kill(os.getpid(), signal.SIGTERM)
 
 
 def test_a_run_within_a_search_is_asked_first():

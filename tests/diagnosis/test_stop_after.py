@@ -64,7 +64,7 @@ def test_a_diagnosis_without_any_time_answers_by_its_first_effect_and_says_that_
     stages: list[str] = []
     found = answer(tmp_path, 0.0, stages)
     assert _TIME_IS_OVER in found.searched.untried
-    assert found.notes[-1].startswith("Stopped by `--stop-after` or Ctrl-C: ")
+    assert found.notes[-1].startswith("Stopped by `--stop-after`, Ctrl-C or SIGTERM: ")
     assert found.verdict in (Verdict.CANNOT_TELL, Verdict.UNNAMED_PHYSICS, Verdict.MISSING_PHYSICS)
     assert found.adequacy is not None
     assert found.adequacy.chi_square["after"] <= found.adequacy.chi_square["recalibrated"]
