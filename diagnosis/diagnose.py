@@ -73,7 +73,7 @@ TRIALS = 24
 
 
 #: What was not tried where the time was over.
-_TIME_IS_OVER = "stopped by `--stop-after`, Ctrl-C or SIGTERM: no further effect and no other description was looked for"
+_TIME_IS_OVER = "stopped by `--stop-after`, Ctrl-C or SIGTERM: no further effect or other description was looked for"
 _STOPPED = f"{_TIME_IS_OVER[0].upper()}{_TIME_IS_OVER[1:]}."
 
 
