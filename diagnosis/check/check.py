@@ -24,6 +24,7 @@ from diagnosis.check.outage import outage_doubts
 from diagnosis.check.places import place_doubts, size_doubts
 from diagnosis.check.readings import reading_doubts
 from diagnosis.check.scale import sign_doubts, unit_doubts
+from diagnosis.check.sensor_of_one import sensor_of_one
 from diagnosis.check.size_of_input import size_of_input
 from diagnosis.check.start import start_doubts, with_odd_starts
 from diagnosis.check.still import still_doubts
@@ -105,6 +106,9 @@ def _odd(doubt: Doubt, every: Sequence[Compared], is_told: bool) -> Doubt:
     gain = gain_of_one(one, others)
     if gain is not None and gain.is_serious:
         return gain
+    sensor = sensor_of_one(one, others)
+    if sensor is not None:  # a number or an input that explains the same is no better known
+        return sensor
     asked = (unit_of_input, size_of_input, other_course, other_number)
     return next((d for ask in asked if (d := ask(one, others)) is not None), gain or doubt)
 

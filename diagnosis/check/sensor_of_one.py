@@ -1,0 +1,150 @@
+"""A recording that stands out by one channel, which a fault of its sensor would explain: a drift, a lag, an offset.
+
+A number, an input or a unit that was another in that recording explains it with one number too, and so does a sensor.
+Which of them it was the readings of one channel seldom show. So where a sensor alone explains the recording as well as
+the others are explained, nothing else is claimed, and the search is left to find begin, end and size.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from cosim.unit.protocol import AnyArray, Array
+from diagnosis.check.beside import Beside, Compared, lagged
+from diagnosis.check.odd_one_out import as_explained, comparable, left_beside, scaled_left
+from diagnosis.check.timing import between, percent
+from diagnosis.judge.diagnosis import Doubt
+from diagnosis.recording.series import sample
+from diagnosis.report.display import instant
+
+#: Lags that are tried first, as shares of the recording; between the neighbours of the best one it is found.
+LAGS = tuple(np.geomspace(2e-3, 0.3, 15).tolist())
+#: Instants between which a sensor may be off, at first; then each reading about the best two.
+INSTANTS = 25
+#: Share of the readings that an offset has at least, and at most: the rest is another zero.
+SHORTEST, LONGEST = 0.03, 0.97
+
+
+@dataclass(frozen=True)
+class _Explained:
+    """What a sensor would have done, in words, the share that is left of its channel, and the stretch concerned [s]."""
+
+    what: str
+    left: float
+    begin: float
+    end: float
+
+
+def sensor_of_one(one: Compared, others: Sequence[Compared]) -> Doubt | None:
+    """A doubt about the sensor of the one channel that is missed, never serious; None where no such fault explains it.
+
+    Args:
+        one: A recording that stands out (`diagnosis.check.odd_one_out`).
+        others: The other recordings of the same rig, which the scenario meets.
+    """
+    before, theirs = left_beside(one, others, scaled_left)
+    enough = as_explained(theirs)
+    missed = [n for n, b in comparable(one).items() if scaled_left(b, b.simulated_there) > enough]
+    if len(missed) != 1:
+        return None
+    (name,) = missed
+    beside = one.channels[name]
+    found = min((e(beside) for e in (_drift, _lag, _offset)), key=lambda f: f.left)
+    if found.left > enough:
+        return None
+    text = (
+        f"scaled and shifted as suits each channel best, the scenario explains {percent(1.0 - before)} of its variance "
+        f"here, and at least {percent(1.0 - theirs)} of each channel's in the other recordings; as if this sensor "
+        f"{found.what}, it is {percent(1.0 - found.left)}"
+    )
+    remedy = (
+        "was the sensor as in the other recordings? A number, an input or a law that only this recording has may look "
+        "alike in one channel: what the search finds says how well"
+    )
+    z = float(np.sqrt(before / max(found.left, 1e-12)))
+    return Doubt(one.recording.title, name, "sensor", text, remedy, False, found.begin, found.end, z)
+
+
+def _drift(beside: Beside) -> _Explained:
+    """A zero that moves in proportion to time."""
+    rest, _ = _freed(beside, [beside.measured, beside.times - beside.times[0]])
+    begin, end = float(beside.times[0]), float(beside.times[-1])
+    return _Explained("drifted in proportion to time", _share(beside, _without(rest[0], rest[1])), begin, end)
+
+
+def _lag(beside: Beside) -> _Explained:
+    """A first-order lag."""
+    course = beside.simulated
+    assert course is not None
+    span = float(np.ptp(beside.times))
+    even = np.linspace(course.times[0], course.times[-1], len(course.times))
+    values = sample(course, even)
+
+    def left(logarithm: float) -> float:
+        behind = replace(course, times=even, values=lagged(even, values, float(np.exp(logarithm))))
+        return scaled_left(beside, sample(behind, beside.times))
+
+    tried = [float(np.log(share * span)) for share in LAGS]
+    shares = [left(x) for x in tried]
+    best = int(np.argmin(shares))
+    ends = tried[max(best - 1, 0)], tried[min(best + 1, len(tried) - 1)]
+    finer = minimize_scalar(left, bounds=ends, method="bounded")
+    time = float(np.exp(finer.x))
+    what = f"had a lag of about {instant(time, 2)} s"
+    return _Explained(what, float(finer.fun), float(beside.times[0]), float(beside.times[-1]))
+
+
+def _offset(beside: Beside) -> _Explained:
+    """A zero that is off between two instants."""
+    rest, basis = _freed(beside, [beside.measured])
+    count = len(beside.times)
+    # sums of the rest and of the basis up to each reading: an offset from i to j is a difference of two of them
+    ahead = np.concatenate([[0.0], np.cumsum(rest[0])])
+    freed = np.vstack([np.zeros(basis.shape[1]), np.cumsum(basis, axis=0)])
+
+    def gains(begins: AnyArray, ends: AnyArray) -> Array:
+        size = ends - begins
+        there = np.sum((freed[ends] - freed[begins]) ** 2, axis=1)
+        is_asked = (size >= SHORTEST * count) & (size <= LONGEST * count)
+        return np.where(is_asked, (ahead[ends] - ahead[begins]) ** 2 / np.maximum(size - there, 1e-9), 0.0)
+
+    edges = np.unique(np.linspace(0, count, INSTANTS).astype(int))
+    begin, end = _best(gains, _pairs(edges, edges))
+    step = int(np.ceil(count / (INSTANTS - 1)))
+    near = [np.arange(max(at - step, 0), min(at + step, count) + 1) for at in (begin, end)]
+    begin, end = _best(gains, _pairs(*near))
+    gained = float(gains(np.array([begin]), np.array([end]))[0])
+    first, last = float(beside.times[begin]), float(beside.times[end - 1])
+    what = f"was off by as much from about {between(first, last)} s"
+    left = (float(rest[0] @ rest[0]) - gained) / count - beside.floor**2
+    return _Explained(what, max(left, 0.0) / float(np.var(beside.measured)), first, last)
+
+
+def _pairs(begins: AnyArray, ends: AnyArray) -> Iterator[tuple[int, int]]:
+    return ((int(b), int(e)) for b in begins for e in ends if b < e)
+
+
+def _best(gains: Callable[[AnyArray, AnyArray], Array], pairs: Iterator[tuple[int, int]]) -> tuple[int, int]:
+    every = np.array(list(pairs))
+    best = every[int(np.argmax(gains(every[:, 0], every[:, 1])))]
+    return int(best[0]), int(best[1])
+
+
+def _freed(beside: Beside, rows: Sequence[Array]) -> tuple[list[Array], Array]:
+    """Rows without what scale and shift of the simulated course explain, and that basis, shape (readings, 2)."""
+    basis = np.linalg.qr(np.stack([np.ones(len(beside.times)), beside.simulated_there], axis=1))[0]
+    return [row - basis @ (basis.T @ row) for row in rows], basis
+
+
+def _without(row: Array, other: Array) -> Array:
+    size = float(other @ other)
+    return np.asarray(row - other * (float(row @ other) / size)) if size > 0.0 else row
+
+
+def _share(beside: Beside, rest: Array) -> float:
+    """Share of a channel's variance, beyond what says nothing."""
+    return max(float(np.mean(rest**2)) - beside.floor**2, 0.0) / float(np.var(beside.measured))

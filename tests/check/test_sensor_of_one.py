@@ -1,0 +1,97 @@
+"""One recording in which one sensor is not as in the others: nothing of the rig is said to be another there."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cosim.scenario import load_scenario
+from cosim.unit.protocol import Array
+from diagnosis.check.beside import compare
+from diagnosis.check.check import check_recordings
+from diagnosis.check.sensor_of_one import sensor_of_one
+from diagnosis.judge.diagnosis import Doubt
+from diagnosis.recording.recording import load_recording
+from tests.check.test_other_course import COUNT, STEP
+from tests.check.test_other_number import _fanned, _recordings
+
+TIMES: Array = STEP * np.arange(COUNT, dtype=np.float64)
+END = float(TIMES[-1])
+
+
+def _doubts(folder: Path, recordings: list[Path]) -> list[Doubt]:
+    return list(check_recordings(load_scenario(folder / "scenario.yaml"), [load_recording(r) for r in recordings]))
+
+
+def _plain(run: int, x: Array) -> float:
+    """The loss of every run."""
+    return 0.79
+
+
+def _drifting(values: Array) -> Array:
+    return values + 6.0 * TIMES / END
+
+
+def _off(values: Array) -> Array:
+    return values + 6.0 * ((TIMES > 0.3 * END) & (TIMES < 0.6 * END))
+
+
+def _behind(values: Array) -> Array:
+    found = values.copy()
+    for n in range(1, COUNT):
+        found[n] = found[n - 1] + (1.0 - np.exp(-STEP / 200.0)) * (values[n] - found[n - 1])
+    return found
+
+
+@pytest.mark.parametrize(
+    ("sensor", "words"),
+    [
+        (_drifting, r"drifted in proportion to time"),
+        (_off, r"was off by as much from about ([\d.]+) to ([\d.]+) s"),
+    ],
+)
+def test_a_sensor_that_explains_the_recording_is_told_and_no_number(
+    sensor: Callable[[Array], Array], words: str, tmp_path: Path
+) -> None:
+    every = _doubts(tmp_path, _recordings(tmp_path, _plain, sensor=sensor))
+    assert not [d for d in every if d.is_serious or d.kind == "number"]
+    (told,) = [d for d in every if "as if this sensor" in d.statement]
+    assert (told.recording, told.subject, told.kind) == ("run_2", "stack.bottom", "sensor")
+    found = re.search(words, told.statement)
+    assert found is not None, told.statement
+    numbers = [float(n) for n in found.groups()]
+    if sensor is _off:
+        assert numbers == pytest.approx([0.3 * END, 0.6 * END], rel=0.02)
+        assert (told.begin, told.end) == pytest.approx(numbers, rel=0.01)
+
+
+def test_a_lag_explains_what_is_behind_one(tmp_path: Path) -> None:
+    """The check says before that a clock and a lag cannot be told apart there."""
+    recordings = _recordings(tmp_path, _plain, sensor=_behind)
+    every = [compare(load_scenario(tmp_path / "scenario.yaml"), load_recording(r)) for r in recordings]
+    told = sensor_of_one(every[1], [every[0], every[2]])
+    assert told is not None
+    found = re.search(r"as if this sensor had a lag of about ([\d.]+) s", told.statement)
+    assert found is not None, told.statement
+    assert float(found[1]) == pytest.approx(200.0, rel=0.1)
+    assert sensor_of_one(every[0], every[1:]) is None
+
+
+def test_a_number_that_moves_both_channels_is_no_sensor(tmp_path: Path) -> None:
+    (told,) = [d for d in _doubts(tmp_path, _recordings(tmp_path, _fanned)) if d.is_serious]
+    assert told.kind == "number"
+
+
+def test_what_no_fault_of_a_sensor_explains_stands_out(tmp_path: Path) -> None:
+    """It shows the square of what is there, about its mean, from largest to least."""
+
+    def folded(values: Array) -> Array:
+        return np.asarray(values.mean() - 0.5 * (values - values.mean()) ** 2)
+
+    every = _doubts(tmp_path, _recordings(tmp_path, _plain, sensor=folded))
+    assert not [d for d in every if "as if this sensor" in d.statement]
+    assert "run_2" in {d.recording for d in every}
