@@ -53,6 +53,7 @@ def _behind(values: Array) -> Array:
         (_drifting, r"drifted in proportion to time"),
         (_off, r"was off by as much from about ([\d.]+) to ([\d.]+) s"),
     ],
+    ids=["drift", "offset"],
 )
 def test_a_sensor_that_explains_the_recording_is_told_and_no_number(
     sensor: Callable[[Array], Array], words: str, tmp_path: Path
