@@ -89,12 +89,29 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
             found += _outside(one)
         if not relation and not known and not units:  # a start that another column or unit has is no start
             found += start_doubts(one)
-    found = with_odd_starts(found, every)
+    found = _without_starts_by_gain(with_odd_starts(found, every), odd, every)
     told = {d.recording for d in found if d.is_serious}  # why such a recording stands out is known
     found += [_odd(d, every, d.recording in told) for d in odd]
     if not told:  # else why it is not followed is known
         found += unfollowed(every)
     return tuple(sorted(without_consequences(found), key=lambda d: (not d.is_serious, -d.z)))
+
+
+def _without_starts_by_gain(doubts: Sequence[Doubt], odd: Sequence[Doubt], every: Sequence[Compared]) -> list[Doubt]:
+    """Doubts without starts that are elsewhere since a sensor reads so many times what it reads in the others.
+
+    A start is forgotten or stays; it multiplies nothing that comes after it.
+    """
+    found = list(doubts)
+    for title in (d.recording for d in odd):
+        serious = [d for d in found if d.recording == title and d.is_serious]
+        if not serious or any(d.kind != "start" for d in serious):
+            continue
+        one = next(o for o in every if o.recording.title == title)
+        gain = gain_of_one(one, [o for o in every if o is not one])
+        if gain is not None:
+            found = [d for d in found if d not in serious or d.subject != gain.subject]
+    return found
 
 
 def _odd(doubt: Doubt, every: Sequence[Compared], is_told: bool) -> Doubt:

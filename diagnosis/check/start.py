@@ -222,7 +222,7 @@ def _doubt(compared: Compared, beside: Beside, off: float, z: float) -> Doubt:
     )
     remedy = (
         "state this recording's initial temperature and surroundings under `overrides`, or how far they "
-        "are unknown under `uncertain`"
+        "are unknown under `uncertain`; did this sensor read as in the other recordings?"
     )
     return Doubt(compared.recording.title, beside.channel.name, "start", text, remedy, False, time, end, z)
 

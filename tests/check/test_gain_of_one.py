@@ -59,6 +59,53 @@ def _doubts(folder: Path, model: OdeModel, factor: float = 0.6, channels: Sequen
     return list(check_recordings(scenario, [load_recording(r) for r in recordings]))
 
 
+#: A temperature that settles above the room's, and another that is warmed by it; both begin at 20 degC.
+WARM = OdeModel(
+    "warmed",
+    {"tau": (TAU, "s"), "g": (0.5, "K/W"), "room": (293.15, "K")},
+    {"power": "W"},
+    {
+        "x": ("K", "room", "(room + g*power - x)/tau"),
+        "y": ("K", "room", "(x - y)/tau"),
+    },
+    {"first": ("K", "x"), "second": ("K", "y")},
+)
+
+
+def _warm(folder: Path, factor: float, later: float) -> list[Doubt]:
+    """About three runs, in the second of which the second temperature reads a multiple [degC], or begins elsewhere."""
+    WARM.build(folder)
+    text = SCENARIO.replace("follower", "warmed")
+    (folder / "scenario.yaml").write_text(text, encoding="utf-8")
+    recordings = []
+    for run in (1, 2, 3):
+        rng, power = np.random.default_rng(run), _power(run)
+        course = np.full((COUNT, 2), 20.0)
+        course[0, 1] += later if run == 2 else 0.0
+        for n in range(1, COUNT):
+            x, y = course[n - 1]
+            course[n] = x + STEP / TAU * (20.0 + 0.5 * power[n - 1] - x), y + STEP / TAU * (x - y)
+        if run == 2:
+            course[:, 1] *= factor
+        columns = {"t": STEP * np.arange(COUNT), "P": power}
+        columns |= {n: course[:, k] + NOISE * rng.standard_normal(COUNT) for k, n in enumerate(BOTH)}
+        told = {f"rig.{n}": (n, "degC", f"{NOISE} K") for n in BOTH}
+        recordings.append(write_recording(folder / f"run_{run}", columns, {"heater.power": ("P", "W")}, told))
+    scenario = load_scenario(str(folder / "scenario.yaml"))
+    return list(check_recordings(scenario, [load_recording(r) for r in recordings]))
+
+
+def test_a_sensor_that_reads_too_much_from_the_begin_is_no_start(tmp_path: Path) -> None:
+    (doubt,) = [d for d in _warm(tmp_path, 1.4, 0.0) if d.is_serious]
+    assert (doubt.recording, doubt.subject, doubt.kind) == ("run_2", "rig.second", "unit")
+    assert "1.4 times" in doubt.statement
+
+
+def test_another_start_is_no_sensor_that_reads_too_much(tmp_path: Path) -> None:
+    (doubt,) = [d for d in _warm(tmp_path, 1.0, 8.0) if d.is_serious]
+    assert (doubt.recording, doubt.subject, doubt.kind) == ("run_2", "rig.second", "start")
+
+
 def test_what_no_number_of_the_rig_does_is_of_the_sensor(tmp_path: Path) -> None:
     (doubt,) = _doubts(tmp_path, COUPLED)
     assert (doubt.recording, doubt.subject, doubt.kind, doubt.is_serious) == ("run_2", "rig.second", "unit", True)
