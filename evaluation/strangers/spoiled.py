@@ -32,7 +32,7 @@ RIGHT = {
     "gain": ("unit", "scale"),
     "sign": ("sign", "unit", "scale"),
     "swapped": ("swapped",),
-    "clock": ("clock",),
+    "clock": ("clock", "dead time"),
     "sensor": ("sensor", "range", "noise"),
     "input": ("input", "programme", "other run", "number"),
 }
@@ -50,7 +50,8 @@ def main() -> int:
     parser.add_argument("--sets", nargs="*", default=sorted(SETS), help="names of sets")
     parser.add_argument("--jobs", type=int, default=1, help="processes")
     given = parser.parse_args()
-    cases = [(name, n) for name in given.sets for n in range(len(SETS[name]))]
+    named = {c.__name__: (name, n) for name in reversed(given.sets) for n, c in enumerate(SETS[name])}
+    cases = sorted(named.values())  # a name that two sets have is drawn once
     given.out.mkdir(parents=True, exist_ok=True)
     tasks = [(given.out.resolve(), name, n, given.seed) for name, n in cases]
     with ProcessPoolExecutor(given.jobs, get_context("spawn"), max_tasks_per_child=1) as pool:
