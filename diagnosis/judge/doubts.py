@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from diagnosis.faults.law import AGAIN
 from diagnosis.judge.diagnosis import ChannelFit, Doubt, Finding, Standing
 
 #: Units of findings that are no physics of the rig.
@@ -16,6 +17,12 @@ _IN_INTERVAL = "_in_interval"
 _HARDLY = (
     "so many sensors and inputs are hardly at fault at once: look at the programme, the columns and the clock of this "
     "recording first"
+)
+#: Share of the shorter of two faults of one sensor or input in which both act, from which they are one course in pieces.
+OVERLAP = 0.5
+_PIECES = (
+    "several faults of it at the same time are pieces of one course, which the sensor took or what it measures: a law "
+    "or a number that is of this recording alone may look alike"
 )
 #: Kind of doubt to what has to be done about it before physics can be told; all others are faults.
 _FIRST = {"start": "the start has to be stated", "dead time": "the times have to be checked"}
@@ -175,16 +182,31 @@ def waits(finding: Finding) -> bool:
 
 
 def _one_cause(findings: Sequence[Finding]) -> tuple[Finding, ...]:
-    """Findings, faults of many sensors and inputs of one recording as suggestions: one cause is more probable."""
+    """Findings, faults of many sensors and inputs of one recording as suggestions: one cause is more probable.
+
+    So are those of one sensor that act at the same time: ramps and steps describe any course, whatever it comes from.
+    """
     places: dict[str, set[str]] = {}
     for finding in findings:
         if finding.is_accepted and is_of_an_interval(finding):
             places.setdefault(finding.recording, set()).add(finding.place)
     many = {recording for recording, own in places.items() if len(own) >= MANY}
-    return tuple(
+    told = [
         _suggested(f, _HARDLY) if f.is_accepted and is_of_an_interval(f) and f.recording in many else f
         for f in findings
-    )
+    ]
+    acting = [f for f in told if f.is_accepted and is_of_an_interval(f)]
+    pieces = [f for f in acting if any(_are_pieces(f, other) for other in acting if other is not f)]
+    return tuple(_suggested(f, _PIECES) if any(f is p for p in pieces) else f for f in told)
+
+
+def _are_pieces(one: Finding, other: Finding) -> bool:
+    """Whether two faults are of one sensor or input of one recording, and act at the same time."""
+    if one.recording != other.recording or one.place.removesuffix(AGAIN) != other.place.removesuffix(AGAIN):
+        return False
+    lengths = [sum(end - begin for begin, end in f.intervals) for f in (one, other)]
+    both = sum(max(0.0, min(b, d) - max(a, c)) for a, b in one.intervals for c, d in other.intervals)
+    return both > OVERLAP * min(lengths)
 
 
 def _suggested(finding: Finding, why: str) -> Finding:

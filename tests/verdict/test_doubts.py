@@ -57,6 +57,28 @@ def test_many_faults_of_one_recording_have_one_cause(count: int, is_accepted: bo
     assert other.is_accepted
 
 
+@pytest.mark.parametrize(
+    ("interval", "place", "recording", "is_accepted"),
+    [
+        ((2.0, 7.0), "coil[1,2].temperature (monday), again", "monday", False),
+        ((4.0, 6.0), "coil[1,2].temperature (monday), again", "monday", False),
+        ((7.0, 9.0), "coil[1,2].temperature (monday), again", "monday", True),
+        ((6.5, 9.0), "coil[1,2].temperature (monday), again", "monday", True),
+        ((2.0, 7.0), "coil[1,1].temperature (monday)", "monday", True),
+        ((2.0, 7.0), "coil[1,2].temperature (tuesday)", "tuesday", True),
+    ],
+)
+def test_faults_of_one_sensor_at_the_same_time_are_pieces_of_one_course(
+    interval: tuple[float, float], place: str, recording: str, is_accepted: bool
+) -> None:
+    """Ice grew on the blades in one recording: their speed was two drifts and a gain of its sensor."""
+    first = replace(FAULT, intervals=((3.0, 7.0),))
+    second = replace(FAULT, effect="sensor_drift_in_interval", place=place, recording=recording, intervals=(interval,))
+    told = doubted([first, second, CONTACT], [])
+    assert [f.is_accepted for f in told] == [is_accepted, is_accepted, True]
+    assert any("pieces of one course" in d for d in told[0].doubts) is not is_accepted
+
+
 def test_a_sensor_that_stood_still_explains_changes_beside_the_programme() -> None:
     beside = replace(STEP, kind="programme", subject="bath.temperature")
     assert of_another_experiment(without_consequences([beside])) == [beside]
