@@ -262,6 +262,11 @@ class CandidateTerm:
         return self.scope == "day"
 
     @property
+    def is_of_either(self) -> bool:
+        """Never: laws of the rig that do the same stand beside it."""
+        return False
+
+    @property
     def amplitude(self) -> Parameter:
         """The parameter that switches it off where it is 0."""
         return self.parameters[0]

@@ -54,6 +54,11 @@ class FaultLaw:
         """Always: a fault belongs to one recording."""
         return True
 
+    @property
+    def is_of_either(self) -> bool:
+        """Never: a rig that is otherwise for a while shows it in its states."""
+        return False
+
 
 OFFSET = FaultLaw(
     "sensor_offset_in_interval",

@@ -18,7 +18,7 @@ _HARDLY = (
     "so many sensors and inputs are hardly at fault at once: look at the programme, the columns and the clock of this "
     "recording first"
 )
-#: Share of the shorter of two faults of one sensor or input in which both act, from which they are pieces of one course:
+#: Share of the shorter of two faults of one sensor or input in which both act, from which they are pieces of a course:
 #: two that follow each other touch by the error of their ends.
 OVERLAP = 0.5
 _PIECES = (

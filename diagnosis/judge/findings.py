@@ -263,7 +263,9 @@ def _finding(
 
 
 def _is_of_either(model: DiagnosisModel, term: Term, likely: Sequence[str]) -> bool:
-    """Whether a finding may be of the rig as well as of a sensor or an input, by the effects of its class."""
+    """Whether a finding may be of the rig as well as of a sensor or an input, by its law or its class."""
+    if model.where(term)[0].is_of_either:
+        return True
     if not likely:  # a rig of 36 coils has thousands of terms
         return False
     units = {t.identifier: t.unit for t in model.terms()}

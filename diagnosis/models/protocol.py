@@ -71,6 +71,11 @@ class Effect(Protocol):
         """Whether it belongs to the day in which it sets in, and does not last."""
         ...
 
+    @property
+    def is_of_either(self) -> bool:
+        """Whether it is written as a law of a sensor, and the rig may do the same before the sensor."""
+        ...
+
 
 class Spot(Protocol):
     """Where a law acts."""

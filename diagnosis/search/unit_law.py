@@ -17,12 +17,14 @@ class UnitLaw:
         name: In plain words.
         source: Where the law comes from.
         confused_with: Identifiers that data often cannot tell from it, with what decides.
+        is_of_either: Whether it is written as a law of a sensor, and the rig may do the same before the sensor.
     """
 
     place: ComponentTerm
     name: str
     source: str = ""
     confused_with: Mapping[str, str] = field(default_factory=dict)
+    is_of_either: bool = False
 
     @property
     def is_of_a_day(self) -> bool:

@@ -13,7 +13,7 @@ from diagnosis.candidates.registry import catalogue
 from diagnosis.judge.estimates import estimated, estimates
 from diagnosis.models.build import model_of
 from diagnosis.models.fabric.model import FabricModel
-from diagnosis.models.fabric.strengths import fitted_sizes, interval_of, next_sizes
+from diagnosis.models.fabric.strengths import better_size, fitted_sizes, interval_of, is_better, next_sizes
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.problem import TermParameter
 from diagnosis.search.search import Settings
@@ -109,6 +109,33 @@ def test_strength_that_cannot_be_simulated_ends_the_interval() -> None:
     known = {0.2: runs(300.0, 1.0), 0.1: runs(300.0, 1.0), 0.05: runs(np.inf, count=1), 0.4: runs(np.inf, count=1)}
     assert next_sizes(0.2, known, ROLL) == []
     assert interval_of(0.2, known, ROLL) == (0.1, 0.2)
+
+
+@pytest.mark.parametrize("best", [0.2, 0.14, -0.2])
+def test_where_the_fitted_strength_is_not_the_best_that_is_simulated_too(best: float) -> None:
+    """The stand leaned by 0.2 rad: straight lines between knots gave 0.175 rad (0.158 to 0.186)."""
+    fitted = float(np.copysign(0.175, best))
+    known = {s: runs(300.0 + ((s - best) / 0.006) ** 2, 1.0) for s in (0.5 * fitted, fitted, 2.0 * fitted)}
+    assert better_size(fitted, known) == pytest.approx(best)
+    assert not interval_of(fitted, known, ROLL)[0] <= best <= interval_of(fitted, known, ROLL)[1]
+    known[best] = runs(300.0, 1.0)
+    assert better_size(fitted, known) is None
+    assert is_better(best, fitted, known)
+    low, high = interval_of(best, known, ROLL)
+    assert low < best < high
+
+
+def test_a_fitted_strength_that_is_nearly_the_best_stays() -> None:
+    known = {s: runs(300.0 + ((s - 0.178) / 0.006) ** 2, 1.0) for s in (0.0875, 0.175, 0.35)}
+    assert better_size(0.175, known) is None
+    level = {s: runs(300.0 + ((s - 0.2) / 0.02) ** 2, 20.0) for s in (0.0875, 0.175, 0.2, 0.35)}
+    assert not is_better(0.2, 0.175, level)  # by less than both means scatter
+
+
+def test_of_runs_that_stop_or_rise_to_one_side_no_better_strength_is_known() -> None:
+    assert better_size(0.2, {0.1: runs(np.inf), 0.2: runs(300.0), 0.4: runs(np.inf)}) is None
+    assert better_size(0.2, {0.1: runs(200.0), 0.2: runs(300.0), 0.4: runs(400.0)}) is None
+    assert better_size(0.2, {0.2: runs(np.inf)}) is None
 
 
 def test_search_bounds_the_strength_that_it_finds(tmp_path: Path) -> None:

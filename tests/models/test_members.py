@@ -202,6 +202,7 @@ def test_laws_and_places_answer_what_is_asked_of_them(model: DiagnosisModel) -> 
         effect, spot = model.where(term)
         assert effect.name
         assert isinstance(effect.is_of_a_day, bool)
+        assert isinstance(effect.is_of_either, bool)
         assert effect.is_of_a_day or term.recording is None
         assert spot.label
         assert spot.mask is None or np.asarray(spot.mask).ndim == 1

@@ -16,6 +16,7 @@ from diagnosis.laws.library import library
 from diagnosis.models.sensor_chain import lagging, turned
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.places import Fit, fits, places_of
+from diagnosis.models.systems.sensors import Reach, sensor_laws_of
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import Settings
 from tests.systems.rigs import COUNT, OSCILLATOR_SCENARIO, STEP, drive, held, oscillator, write_recording
@@ -52,8 +53,8 @@ def _recordings(folder: Path, friction: float, half_width: float) -> list[Path]:
     return found
 
 
-def _diagnosed(folder: Path, friction: float, half_width: float) -> Diagnosis:
-    scenario = load_scenario(str(oscillator(folder)))
+def _diagnosed(folder: Path, friction: float, half_width: float, integrator: str = "cvode") -> Diagnosis:
+    scenario = load_scenario(str(oscillator(folder, integrator)))
     every = [load_recording(r) for r in _recordings(folder, friction, half_width)]
     return diagnose(scenario, every[:2], every[2:], Settings(), options=Options(is_brief=True)).diagnosis
 
@@ -87,6 +88,23 @@ def test_hysteresis_of_a_sensor_is_named(tmp_path: Path) -> None:
     assert half.value == pytest.approx(HALF_WIDTH, rel=0.1)
     assert half.lower < HALF_WIDTH < half.upper
     assert travel.value == pytest.approx(TRAVEL, rel=0.2)
+
+
+def test_of_an_fmu_that_hides_its_states_hysteresis_before_the_sensor_may_be_of_the_rig(tmp_path: Path) -> None:
+    """The rigging of a brake rubs between its cylinder and its shoe, whose force is read: no sensor is at fault."""
+    found = _diagnosed(tmp_path, 0.0, HALF_WIDTH, "internal")
+    assert found.verdict is Verdict.CANNOT_TELL
+    (finding,) = [f for f in found.findings if f.is_accepted]
+    assert (finding.effect, finding.is_of_either) == ("sensor_hysteresis", True)
+    assert "is at fault" not in found.statement
+    assert "The rig, a sensor or an input may do that" in " ".join([found.statement, *found.notes])
+
+
+def test_laws_of_forms_that_rigs_have_are_of_a_sensor_where_it_reads_a_state() -> None:
+    for is_state in (True, False):
+        reach = {"rig.position": Reach("m", 0.1, -0.2, 0.2, 1e-3, 10.0, is_state)}
+        either = {law.place.term.identifier for law in sensor_laws_of(reach, 0.02, 0.02) if law.is_of_either}
+        assert either == (set() if is_state else {"sensor_hysteresis", "sensor_bend"})
 
 
 def test_a_recording_without_hysteresis_has_none(tmp_path: Path) -> None:

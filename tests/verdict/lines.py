@@ -24,6 +24,7 @@ class Law:
     law: str
     confused_with: Mapping[str, str]
     is_of_a_day: bool = False
+    is_of_either: bool = False
 
 
 @dataclass(frozen=True)

@@ -264,9 +264,12 @@ def test_whether_a_class_may_be_of_the_rig_and_of_a_sensor(
         for c in catalogue()
         if c.identifier in ("sensor_lag", "second_mass", "sheath", "sensor_bias")
     ]
-    model = SimpleNamespace(terms=lambda: known)
+    law = SimpleNamespace(is_of_either=False)
+    model = SimpleNamespace(terms=lambda: known, where=lambda term: (law, None))
     term = next(t for t in known if t.identifier == effect)
     assert _is_of_either(cast(DiagnosisModel, model), term, likely) is is_either
+    law.is_of_either = True
+    assert _is_of_either(cast(DiagnosisModel, model), term, likely)
 
 
 @pytest.mark.parametrize(("explained", "word"), [(0.69, Verdict.CANNOT_TELL), (0.8, Verdict.UNNAMED_PHYSICS)])

@@ -45,6 +45,11 @@ class CameraLaw:
         """Never: the camera stands as it does in every recording."""
         return False
 
+    @property
+    def is_of_either(self) -> bool:
+        """Never: what moves is compared by itself."""
+        return False
+
 
 _BEGIN = "the first pictures decide, in which nothing has moved yet"
 _STILL = "a marker that is held and seen decides: it must not move"

@@ -12,7 +12,16 @@ from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.models.fabric.mechanical import MechanicalModel
 from diagnosis.models.fabric.scatter import FEWEST, Whitening, calibrated_scatter
-from diagnosis.models.fabric.strengths import fitted_sizes, interval_of, largest_believed, next_sizes
+from diagnosis.models.fabric.strengths import (
+    REFINED,
+    best_size,
+    better_size,
+    fitted_sizes,
+    interval_of,
+    is_better,
+    largest_believed,
+    next_sizes,
+)
 from diagnosis.models.fabric.surface import Surface
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Explanation, Outcome, Settings, recalibrate, search
@@ -87,7 +96,8 @@ def search_fabric(
     the ensemble as a null: its largest gain is the least that counts. 5. The search itself, on what was simulated: for
     one effect first, then for more beside it, since contacts of a fabric with an effect scatter by another amount than
     those of one without. Hopeful effects are simulated where they were fitted, and the best explanation from several
-    starts. 6. What was found is simulated at other strengths: between which it meets the recordings as well.
+    starts. 6. What was found is simulated at other strengths: which of them meets the recordings best, and between
+    which they do as well.
 
     Args:
         model: Model and training recordings; its mechanical part is made here.
@@ -112,7 +122,7 @@ def search_fabric(
     if outcome.best.terms:
         more = replace(own, floor=max(own.floor, plan.margin_beside()))
         outcome = plan.settled(plan.search(more), more)
-    plan.bound_strengths(outcome)
+        outcome = plan.bound_strengths(outcome, more)
     model.take_scatter(model.scatter())
     return outcome
 
@@ -434,26 +444,47 @@ class _Plan:
             self.surface.add(strongest, point.terms[strongest][0], corrected, point.base, len(found))
         self._scatter_of(members)
 
-    def bound_strengths(self, outcome: Outcome) -> None:
-        """Simulate every effect that was found at other strengths: between which it meets the recordings as well."""
+    def bound_strengths(self, outcome: Outcome, settings: Settings) -> Outcome:
+        """Simulate every effect that was found at other strengths: which is the best, and between which as good.
+
+        Returns:
+            The outcome of another search, where one meets the recordings better than the fitted one does.
+        """
         model, laws = self.model, set(self.model.laws())
         fitted = outcome.best.fit.point
         point = model.own_point(fitted)
         terms = [t for t in point.terms if t in laws and point.terms[t][0] != 0.0]
         if not terms:
-            return
+            return outcome
         self._network_point = model.network_point(fitted)
         known: dict[Term, dict[float, Array]] = {t: {} for t in terms}
-        while wanted := [(t, s) for t in terms for s in next_sizes(point.terms[t][0], known[t], t.parameters[0])]:
+        means: dict[tuple[Term, float], Array] = {}
+        refined = 0
+        while True:
+            wanted = [(t, s) for t in terms for s in next_sizes(point.terms[t][0], known[t], t.parameters[0])]
+            if not wanted and refined < REFINED:
+                refined += 1
+                wanted = [(t, s) for t in terms if (s := better_size(point.terms[t][0], known[t])) is not None]
+            if not wanted:
+                break
             points = [point.plus(t, (s, *point.terms[t][1:])) for t, s in wanted]
             self._enter_more("the effects found, at other strengths", len(points) * self._confirmed)
             found = self._runs([(self._point(p.base, dict(p.terms)), self._confirmed) for p in points])
             for (term, size), runs in zip(wanted, found):
                 known[term][size] = np.array([np.inf]) if runs is None else model.prepared.misfits(runs, point)
+                if runs is not None:
+                    means[term, size] = runs.mean(axis=0)
+        is_moved = False
         for term, misfits in known.items():
             strength = point.terms[term][0]
-            if np.isfinite(misfits[strength]).all():
-                model.take_interval(term, interval_of(strength, misfits, term.parameters[0]))
+            if not np.isfinite(misfits[strength]).all():
+                continue
+            best = best_size({s: float(np.mean(v)) for s, v in misfits.items()})
+            if best != strength and is_better(best, strength, misfits):
+                self.surface.add(term, best, means[term, best], point.base, self._confirmed)
+                is_moved, strength = True, best
+            model.take_interval(term, interval_of(strength, misfits, term.parameters[0]))
+        return self.search(settings) if is_moved else outcome
 
 
 def _largest_gain(outcome: Outcome) -> float:

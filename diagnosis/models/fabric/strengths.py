@@ -25,6 +25,10 @@ RISE = float(chi2.ppf(0.95, 1))
 LEAST = 1e-9
 #: Standard errors of a mean over starts by which it may lie too high.
 ERRORS = 2.0
+#: Share of the fitted strength by which one has to be apart from all that were simulated, to be simulated too.
+APART = 0.05
+#: How often a better strength is looked for.
+REFINED = 3
 
 
 def largest_believed(parameter: TermParameter, sign: float) -> float:
@@ -80,6 +84,45 @@ def next_sizes(strength: float, misfits: Mapping[float, Array], parameter: TermP
             if excess[size] > 0.0:
                 break
     return wanted
+
+
+def better_size(strength: float, misfits: Mapping[float, Array]) -> float | None:
+    """Where a parabola through the simulations about the best one has its least; None where that is known.
+
+    The fitted strength lies between knots of straight lines: it need not be the one that meets the recordings best, and
+    an interval about another one does not hold it.
+
+    Args:
+        strength: The fitted one.
+        misfits: As in `interval_of`.
+
+    >>> import numpy as np
+    >>> better_size(0.175, {s: np.array([1e4 * (s - 0.2) ** 2] * 2) for s in (0.0875, 0.175, 0.35)})
+    0.2
+    """
+    means = {s: _mean(v)[0] for s, v in misfits.items() if np.isfinite(v).all()}
+    places = sorted(means)
+    at = places.index(best_size(means)) if means else 0
+    if not 0 < at < len(places) - 1:
+        return None
+    (a, b, c), (f, g, h) = places[at - 1 : at + 2], [means[p] for p in places[at - 1 : at + 2]]
+    left, right = (g - f) / (b - a), (h - g) / (c - b)
+    if not right > left:
+        return None
+    # slopes at the middles of both pieces of a parabola; between them it turns
+    least = round(0.5 * (a + b) - left * 0.5 * (c - a) / (right - left), 12)
+    return None if any(abs(least - p) <= APART * abs(strength) for p in places) else least
+
+
+def best_size(means: Mapping[float, float]) -> float:
+    """The strength that meets the recordings best."""
+    return min(means, key=lambda s: means[s])
+
+
+def is_better(size: float, strength: float, misfits: Mapping[float, Array]) -> bool:
+    """Whether a strength meets the recordings better than the fitted one, by more than the errors of both means."""
+    (level, error), (mean, own) = _mean(misfits[strength]), _mean(misfits[size])
+    return bool(mean + ERRORS * float(np.hypot(error, own)) < level)
 
 
 def interval_of(strength: float, misfits: Mapping[float, Array], parameter: TermParameter) -> tuple[float, float]:

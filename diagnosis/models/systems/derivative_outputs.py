@@ -70,6 +70,18 @@ def outputs_read(system: FastSystem, fmu: FastFmu, own: Places) -> tuple[dict[st
     return derivatives, composed
 
 
+def states_read(fmu: FastFmu, own: Places, composed: Sequence[str]) -> frozenset[str]:
+    """States, and outputs that are a straight line in one of them alone; nothing of the rig lies between.
+
+    Args:
+        fmu: Any FMU; of one that hides its states nothing is known.
+        own: Its quantities, with `derivatives_read`.
+        composed: Outputs that are more than that.
+    """
+    rates = {output for outputs in own.derivatives_read.values() for output in outputs}
+    return frozenset(fmu.states) | (set(_outputs(fmu, own)) - set(composed) - rates)
+
+
 def _outputs(fmu: FastFmu, own: Places) -> list[str]:
     """Scalar outputs of a Model Exchange FMU all of whose states are known; else none."""
     if not fmu.is_model_exchange or not fmu.states or set(fmu.states) != set(own.states):

@@ -423,13 +423,16 @@ def laws_at(
     try:
         places = places_of(systems)
         usual = usual_numbers(systems[0], free)
+        states = {f"{own.component}.{name}" for own in places for name in own.states_read}
     finally:
         for system in systems:
             system.close()
     laws = [law for law in library() if law.identifier not in without]
     step, macro = sample_step(recordings), nanoseconds(scenario.time.macro_step) * 1e-9
     sensors = [
-        law for law in sensor_laws_of(reach_of(recordings), step, macro) if law.place.term.identifier not in without
+        law
+        for law in sensor_laws_of(reach_of(recordings, states), step, macro)
+        if law.place.term.identifier not in without
     ]
     untried = tuple(text for own in places for text in own.untried)
     longest = max((float(np.ptp(c.times)) for r in recordings for c in r.channels.values()), default=0.0)

@@ -18,7 +18,14 @@ from diagnosis.laws.at_inputs import OVER
 from diagnosis.laws.expression import names_in, renamed
 from diagnosis.laws.law import Law, Number, Role
 from diagnosis.models.systems.changeable import changeable, why_none
-from diagnosis.models.systems.derivative_outputs import FACTOR, outputs_read, parts_read, read_by_outputs, read_in_part
+from diagnosis.models.systems.derivative_outputs import (
+    FACTOR,
+    outputs_read,
+    parts_read,
+    read_by_outputs,
+    read_in_part,
+    states_read,
+)
 from diagnosis.models.systems.far import far_quantities
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import FastFmu, NotFast
@@ -116,6 +123,7 @@ def places_of(systems: Sequence[FastSystem]) -> list[Places]:
         probed = _probed(systems[0], fmu, own)
         own.velocity_of, own.twist_of = _kinematics(*probed)
         own.derivatives_read, composed = outputs_read(systems[0], fmu, own)
+        own.states_read = states_read(fmu, own, composed)
         own.parts_read = parts_read(systems[0], fmu, own)
         read = [n for of in (own.derivatives_read, own.parts_read) for outputs in of.values() for n in outputs]
         own.output_units = {n: fmu.units[n] for n in read}

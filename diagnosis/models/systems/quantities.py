@@ -84,6 +84,7 @@ class Places:
         derivatives_read: State to the outputs that are its derivative, times a factor in their units, plus a constant.
         parts_read: State to outputs that are a part of its derivative, with the factor of that in their units, and the
             states over which that part acts.
+        states_read: States, and outputs that are a straight line in one of them alone.
         output_units: Unit of each of these outputs.
         twist_of: State whose derivative is the difference of two others, to these two.
         acted_on_by: State to the other states that its derivative depends on.
@@ -105,6 +106,7 @@ class Places:
     twist_of: dict[str, tuple[str, str]] = field(default_factory=dict)
     derivatives_read: dict[str, dict[str, float]] = field(default_factory=dict)
     parts_read: dict[str, dict[str, tuple[float, frozenset[str]]]] = field(default_factory=dict)
+    states_read: frozenset[str] = frozenset()
     output_units: dict[str, str] = field(default_factory=dict)
     acted_on_by: dict[str, frozenset[str]] = field(default_factory=dict)
     parameters: dict[str, Changeable] = field(default_factory=dict)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -55,6 +55,7 @@ class Reach:
         most: Largest reading.
         noise: Deviation of its noise.
         duration: Of its longest recording [s].
+        is_state: Whether it is a state of the model, or in proportion to one: the rig has nothing before the sensor.
     """
 
     unit: str
@@ -63,10 +64,16 @@ class Reach:
     most: float
     noise: float
     duration: float
+    is_state: bool = False
 
 
-def reach_of(recordings: Sequence[Recording]) -> dict[str, Reach]:
-    """Channel to what it reads; channels without a reading are left out."""
+def reach_of(recordings: Sequence[Recording], states: Container[str] = ()) -> dict[str, Reach]:
+    """Channel to what it reads; channels without a reading are left out.
+
+    Args:
+        recordings: With the channels.
+        states: Names of channels that are states of a Model Exchange FMU, or in proportion to one.
+    """
     found = {}
     for name in dict.fromkeys(n for r in recordings for n in r.channels):
         channels = [r.channels[name] for r in recordings if name in r.channels and len(r.channels[name].values)]
@@ -76,7 +83,8 @@ def reach_of(recordings: Sequence[Recording]) -> dict[str, Reach]:
         noise = max(c.deviation for c in channels)
         duration = max(float(c.times[-1] - c.times[0]) for c in channels)
         size = max(float(np.std(values)), noise)
-        found[name] = Reach(channels[0].unit, size, float(values.min()), float(values.max()), noise, duration)
+        ends = float(values.min()), float(values.max())
+        found[name] = Reach(channels[0].unit, size, *ends, noise, duration, name in states)
     return found
 
 
@@ -105,7 +113,8 @@ def _of_readings(channel: str, reach: Reach) -> list[UnitLaw]:
         identifier: str, name: str, formula: str, numbers: tuple[TermParameter, ...], section: str, of: str = _SOURCE
     ) -> UnitLaw:
         term = Term(identifier, channel, "measurement", numbers, law=formula)
-        return UnitLaw(ComponentTerm(term, channel, ()), name, of + section, _CONFUSED[identifier])
+        is_of_either = identifier in _OF_EITHER and not reach.is_state
+        return UnitLaw(ComponentTerm(term, channel, ()), name, of + section, _CONFUSED[identifier], is_of_either)
 
     found = [
         law("sensor_bias", "bias of a sensor", "value = truth + bias", (_bias(reach),), "4.20 (instrument bias)"),
@@ -134,6 +143,9 @@ def _of_readings(channel: str, reach: Reach) -> list[UnitLaw]:
     return found
 
 
+#: Laws of a form that a rigging, a gear or a membrane has as well as a sensor: the rig may do that between states and
+#: an output that is none.
+_OF_EITHER = ("sensor_hysteresis", "sensor_bend")
 _CONFUSED: Mapping[str, Mapping[str, str]] = {
     "sensor_bias": _BIAS_CONFUSED,
     "sensor_drift": _DRIFT_CONFUSED,
