@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from diagnosis.faults.law import AGAIN
+from diagnosis.faults.law import AGAIN, OF_INPUTS, is_one_of
 from diagnosis.judge.diagnosis import ChannelFit, Doubt, Finding, Standing
 
 #: Units of findings that are no physics of the rig.
 MEASURED = ("measurement", "input")
-#: Sensors and inputs of one recording that are hardly at fault at the same time without a common cause.
+#: Sensors and inputs of one recording that are hardly at fault at the same time without a common cause; and faults of
+#: one sensor in one recording, suggested ones too, that are pieces of one course.
 MANY = 3
 #: End of the identifiers of faults with begin and end.
 _IN_INTERVAL = "_in_interval"
@@ -18,12 +19,12 @@ _HARDLY = (
     "so many sensors and inputs are hardly at fault at once: look at the programme, the columns and the clock of this "
     "recording first"
 )
-#: Share of the shorter of two faults of one sensor or input in which both act, from which they are pieces of a course:
+#: Share of the shorter of two faults of one sensor in which both act, from which they are pieces of one course:
 #: two that follow each other touch by the error of their ends.
 OVERLAP = 0.5
 _PIECES = (
-    "several faults of it at the same time are pieces of one course, which the sensor took or what it measures: a law "
-    "or a number that is of this recording alone may look alike"
+    "so many faults of it, or several at the same time, are pieces of one course, which it took or what it measures: "
+    "when it was otherwise is not known, and a law or a number that is of this recording alone may look alike"
 )
 #: Kind of doubt to what has to be done about it before physics can be told; all others are faults.
 _FIRST = {"start": "the start has to be stated", "dead time": "the times have to be checked"}
@@ -185,7 +186,8 @@ def waits(finding: Finding) -> bool:
 def _one_cause(findings: Sequence[Finding]) -> tuple[Finding, ...]:
     """Findings, faults of many sensors and inputs of one recording as suggestions: one cause is more probable.
 
-    So are those of one sensor that act at the same time: ramps and steps describe any course, whatever it comes from.
+    So are many of one sensor, and those that act at the same time: ramps and steps describe any course, whatever it
+    comes from. Of an input they are told as another course that it had.
     """
     places: dict[str, set[str]] = {}
     for finding in findings:
@@ -196,15 +198,20 @@ def _one_cause(findings: Sequence[Finding]) -> tuple[Finding, ...]:
         _suggested(f, _HARDLY) if f.is_accepted and is_of_an_interval(f) and f.recording in many else f
         for f in findings
     ]
-    acting = [f for f in told if f.is_accepted and is_of_an_interval(f)]
-    pieces = [f for f in acting if any(_are_pieces(f, other) for other in acting if other is not f)]
+    of_each: dict[tuple[str, str], list[Finding]] = {}
+    for finding in (f for f in told if is_of_an_interval(f) and not is_one_of(f.effect, OF_INPUTS)):
+        of_each.setdefault((finding.recording, finding.place.removesuffix(AGAIN)), []).append(finding)
+    pieces = [f for own in of_each.values() for f in own if f.is_accepted and _is_piece(f, own)]
     return tuple(_suggested(f, _PIECES) if any(f is p for p in pieces) else f for f in told)
 
 
-def _are_pieces(one: Finding, other: Finding) -> bool:
-    """Whether two faults are of one sensor or input of one recording, and act at the same time."""
-    if one.recording != other.recording or one.place.removesuffix(AGAIN) != other.place.removesuffix(AGAIN):
-        return False
+def _is_piece(finding: Finding, own: Sequence[Finding]) -> bool:
+    """Whether an accepted fault is one of many of its sensor, or acts at the same time as another one."""
+    return len(own) >= MANY or any(_are_together(finding, f) for f in own if f is not finding and f.is_accepted)
+
+
+def _are_together(one: Finding, other: Finding) -> bool:
+    """Whether two faults act at the same time."""
     lengths = [sum(end - begin for begin, end in f.intervals) for f in (one, other)]
     both = sum(max(0.0, min(b, d) - max(a, c)) for a, b in one.intervals for c, d in other.intervals)
     return both > OVERLAP * min(lengths)

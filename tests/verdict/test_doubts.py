@@ -79,6 +79,18 @@ def test_faults_of_one_sensor_at_the_same_time_are_pieces_of_one_course(
     assert any("pieces of one course" in d for d in told[0].doubts) is not is_accepted
 
 
+@pytest.mark.parametrize(("count", "is_accepted"), [(MANY - 1, True), (MANY, False)])
+def test_many_faults_of_one_sensor_are_pieces_of_one_course(count: int, is_accepted: bool) -> None:
+    """A probe that came loose showed a share of the air from then on: a drift, an offset and a share for a while."""
+    first = replace(FAULT, intervals=((7.0, 9.0),))
+    others = [
+        replace(FAULT, effect=f"sensor_{n}_in_interval", intervals=((float(n), n + 1.0),), is_accepted=False)
+        for n in range(count - 1)
+    ]
+    told = doubted([first, *others], [])
+    assert told[0].is_accepted is is_accepted
+
+
 def test_a_sensor_that_stood_still_explains_changes_beside_the_programme() -> None:
     beside = replace(STEP, kind="programme", subject="bath.temperature")
     assert of_another_experiment(without_consequences([beside])) == [beside]
