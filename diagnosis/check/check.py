@@ -92,6 +92,10 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
     found = _without_starts_by_gain(with_odd_starts(found, every), odd, every)
     told = {d.recording for d in found if d.is_serious}  # why such a recording stands out is known
     found += [_odd(d, every, d.recording in told) for d in odd]
+    for one in (o for o in every if o.recording.title not in told | standing_out):
+        # numbers that are off hide that it stands out, and not that one channel alone is multiplied
+        gain = gain_of_one(one, [o for o in every if o is not one])
+        found += [gain] if gain is not None else []
     if not told:  # else why it is not followed is known
         found += unfollowed(every)
     return tuple(sorted(without_consequences(found), key=lambda d: (not d.is_serious, -d.z)))

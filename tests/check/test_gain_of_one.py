@@ -41,8 +41,10 @@ connections: [heater.power -> rig.power]
 BOTH = ("first", "second")
 
 
-def _doubts(folder: Path, model: OdeModel, factor: float = 0.6, channels: Sequence[str] = BOTH) -> list[Doubt]:
-    """About three runs, in the second of which the second channel is multiplied."""
+def _doubts(
+    folder: Path, model: OdeModel, factor: float = 0.6, channels: Sequence[str] = BOTH, off: float = 1.0
+) -> list[Doubt]:
+    """About three runs, in the second of which the second channel is multiplied; both are off by so much in all."""
     model.build(folder)
     (folder / "scenario.yaml").write_text(SCENARIO, encoding="utf-8")
     recordings = []
@@ -50,7 +52,7 @@ def _doubts(folder: Path, model: OdeModel, factor: float = 0.6, channels: Sequen
         rng, power, course = np.random.default_rng(run), _power(run), np.zeros(COUNT)
         for n in range(1, COUNT):
             course[n] = course[n - 1] - (power[n - 1] - course[n - 1]) * np.expm1(-STEP / TAU)
-        values = {"first": course, "second": 2.0 * course * (factor if run == 2 else 1.0)}
+        values = {"first": off * course, "second": off * 2.0 * course * (factor if run == 2 else 1.0)}
         columns = {"t": STEP * np.arange(COUNT), "P": power}
         columns |= {n: values[n] + NOISE * rng.standard_normal(COUNT) for n in channels}
         told = {f"rig.{n}": (n, "W", f"{NOISE} W") for n in channels}
@@ -117,6 +119,14 @@ def test_a_number_that_does_the_same_is_named_and_nothing_is_decided(tmp_path: P
     (doubt,) = _doubts(tmp_path, OWN)
     assert (doubt.subject, doubt.kind, doubt.is_serious) == ("rig.second", "odd one out", False)
     assert "or another rig.h in this recording" in doubt.statement
+
+
+def test_numbers_that_are_off_in_all_recordings_hide_no_sensor(tmp_path: Path) -> None:
+    """The scenario explains none of them within 5 %, so that none stands out."""
+    doubts = _doubts(tmp_path, COUPLED, off=1.5)
+    assert not [d for d in doubts if "all channels" in d.subject]
+    (doubt,) = [d for d in doubts if d.recording == "run_2"]
+    assert (doubt.subject, doubt.kind, doubt.is_serious) == ("rig.second", "unit", True)
 
 
 def test_where_numbers_are_not_tried_that_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
