@@ -201,7 +201,7 @@ def stuck_stretches(compared: Compared, beside: Beside) -> list[tuple[int, int]]
         if after < len(values):
             step = abs(float(values[after] - values[first]))
             is_caught_up = step > limit * noise and step > _usual_step(values, int(first), int(after))
-            if not is_caught_up:
+            if not is_caught_up or _is_driven(beside, int(after)):
                 continue
         elif not _moves_within(beside, int(first), int(after), limit * noise):
             continue
@@ -223,6 +223,22 @@ def _usual_step(values: Array, first: int, after: int) -> float:
     steps = np.abs(np.diff(values))
     around = np.concatenate([steps[max(first - 9, 0) : max(first - 1, 0)], steps[after : after + 8]])
     return float(np.max(around, initial=0.0)) * 2.0
+
+
+def _is_driven(beside: Beside, after: int) -> bool:
+    """Whether the simulation steps as well between a reading and the one before it, by half of what was read or more.
+
+    A voltage that follows its input at once, and a sensor that rounds more than it scatters, repeat one value until
+    the input changes.
+    """
+    if beside.simulated is None:
+        return False
+    times, values = beside.channel.times, beside.channel.values
+    # a row of an input may be late by a reading
+    ends = times[max(after - 2, 0)], times[min(after + 1, len(times) - 1)]
+    before, then = beside.at(np.array(ends))
+    step = float(values[after] - values[after - 1])
+    return bool((then - before) * np.sign(step) > 0.5 * abs(step))
 
 
 def _moves_within(beside: Beside, first: int, after: int, least: float) -> bool:
