@@ -183,3 +183,24 @@ def test_how_a_rival_scatters_says_nothing_of_what_is_found() -> None:
     assert plan.sharpen(SimpleNamespace(best=found), 4)
     assert added == [TERMS[0], TERMS[0], TERMS[1], TERMS[1]]  # as fitted, and at the largest
     assert len(counted) == 2
+
+
+def test_strengths_by_which_runs_differ_are_those_of_a_straight_line() -> None:
+    """Runs that differ by an effect alone differ by that strength from the mean of the others."""
+    ensemble = members(8, 1)
+    found = model(ensemble[0], ensemble)
+    sizes = np.array([0.3, -0.1, 0.25, 0.05])
+    runs = 0.05 + np.array([effect(0, 1e-3 * s) + 2.0 * effect(9, 1e-4) for s in sizes])
+    shifts = found.shifts(runs, effect(0, 1e-3), Point(np.zeros(1)))
+    others = np.array([np.delete(sizes, n).mean() for n in range(4)])
+    np.testing.assert_allclose(shifts, sizes - others, atol=2e-3)
+
+
+def test_fabrics_that_scatter_are_told_apart_by_no_less_than_that() -> None:
+    """The scatter of strengths over runs is the one with which a recording tells them."""
+    ensemble = members(8, 1)
+    found = model(ensemble[0], ensemble)
+    slope = effect(0, 1e-3)
+    told = [np.std(found.shifts(members(6, 50 + n), slope, Point(np.zeros(1)))) for n in range(20)]
+    alone = [found.shifts(members(2, 90 + n), slope, Point(np.zeros(1)))[0] for n in range(60)]
+    assert np.mean(told) == pytest.approx(np.std(alone) / np.sqrt(2.0) * np.sqrt(6.0 / 5.0), rel=0.35)

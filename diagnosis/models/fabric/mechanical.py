@@ -88,6 +88,29 @@ class MechanicalModel:
         moved = np.linalg.lstsq(equations, -ends, rcond=None)[0]
         return np.asarray(np.sum((ends + equations @ moved) ** 2, axis=0))
 
+    def shifts(self, runs: Array, slope: Array, point: Point) -> Array:
+        """By how much a strength would be another if a run were the recording, shape (runs,); parameters may move.
+
+        Each run of a point is fitted by the mean of the others, along a straight line: the strength that a recording
+        tells scatters as these do, however sharply its curvature tells it.
+
+        Args:
+            runs: Bins of two runs or more, shape (runs, bins).
+            slope: Change of the bins by the strength, shape (bins,).
+            point: Where they were made.
+        """
+        count = len(self.parameters)
+        mean = runs.mean(axis=0)
+        column = -self._whiten(self._seen(mean + slope, point) - self._seen(mean, point))
+        equations = np.vstack([np.column_stack([self.base_jacobian(point), column]), np.eye(count, count + 1)])
+        found = []
+        for number, run in enumerate(runs):
+            others = np.delete(runs, number, axis=0).mean(axis=0)
+            left = self._whiten(self._seen(run, point) - self._seen(others, point))
+            ends = np.concatenate([left, np.zeros(count)])
+            found.append(float(np.linalg.lstsq(equations, -ends, rcond=None)[0][-1]))
+        return np.array(found)
+
     def _seen(self, bins: Array, point: Point) -> Array:
         return bins if self.camera is None else self.camera.seen(bins, point.terms)
 

@@ -21,6 +21,7 @@ from diagnosis.models.fabric.strengths import (
     is_better,
     largest_believed,
     next_sizes,
+    widened,
 )
 from diagnosis.models.fabric.surface import Surface
 from diagnosis.search.problem import Point, Term
@@ -458,7 +459,7 @@ class _Plan:
             return outcome
         self._network_point = model.network_point(fitted)
         known: dict[Term, dict[float, Array]] = {t: {} for t in terms}
-        means: dict[tuple[Term, float], Array] = {}
+        runs_at: dict[tuple[Term, float], Array] = {}
         refined = 0
         while True:
             wanted = [(t, s) for t in terms for s in next_sizes(point.terms[t][0], known[t], t.parameters[0])]
@@ -473,7 +474,7 @@ class _Plan:
             for (term, size), runs in zip(wanted, found):
                 known[term][size] = np.array([np.inf]) if runs is None else model.prepared.misfits(runs, point)
                 if runs is not None:
-                    means[term, size] = runs.mean(axis=0)
+                    runs_at[term, size] = runs
         is_moved = False
         for term, misfits in known.items():
             strength = point.terms[term][0]
@@ -481,9 +482,12 @@ class _Plan:
                 continue
             best = best_size({s: float(np.mean(v)) for s, v in misfits.items()})
             if best != strength and is_better(best, strength, misfits):
-                self.surface.add(term, best, means[term, best], point.base, self._confirmed)
+                self.surface.add(term, best, runs_at[term, best].mean(axis=0), point.base, self._confirmed)
                 is_moved, strength = True, best
-            model.take_interval(term, interval_of(strength, misfits, term.parameters[0]))
+            slope = self.surface.slope(term, strength)
+            shifts = model.prepared.shifts(runs_at[term, strength], slope, point)
+            interval = interval_of(strength, misfits, term.parameters[0])
+            model.take_interval(term, widened(interval, strength, shifts, term.parameters[0]))
         return self.search(settings) if is_moved else outcome
 
 

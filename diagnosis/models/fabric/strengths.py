@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.stats import chi2, t
 
 from cosim.unit.protocol import Array
 from diagnosis.models.fabric.surface import is_near
@@ -143,6 +143,29 @@ def interval_of(strength: float, misfits: Mapping[float, Array], parameter: Term
     below, above = [p for p in reversed(places) if p <= strength], [p for p in places if p >= strength]
     least, most = (parameter.lower, 0.0) if strength < 0.0 else (0.0, parameter.upper)
     return _end(below, excess, least), _end(above, excess, most)
+
+
+def widened(
+    interval: tuple[float, float], strength: float, shifts: Array, parameter: TermParameter
+) -> tuple[float, float]:
+    """An interval that holds what one more run of the same fabric would be fitted by, with a probability of 95 %.
+
+    Source: Student's t prediction from k draws, Gelman et al., Bayesian Data Analysis, 3rd ed., section 3.2.
+
+    Args:
+        interval: From simulations at other strengths.
+        strength: That meets the recordings best.
+        shifts: Strengths by which each of k runs there differs from the mean of the others.
+        parameter: Of the effect, for its bounds.
+    """
+    count = len(shifts)
+    if count < 2:
+        return interval
+    # a run less the mean of k - 1 others scatters by 1 + 1/(k - 1), a recording less that of k by 1 + 1/k
+    of_one = float(np.mean(shifts**2)) * (count - 1) / count
+    width = float(t.ppf(0.975, count - 1) * np.sqrt(of_one * (1.0 + 1.0 / count)))
+    least, most = (parameter.lower, 0.0) if strength < 0.0 else (0.0, parameter.upper)
+    return min(interval[0], max(strength - width, least)), max(interval[1], min(strength + width, most))
 
 
 def _excess(strength: float, misfits: Mapping[float, Array]) -> dict[float, float]:

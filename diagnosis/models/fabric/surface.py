@@ -86,6 +86,11 @@ class Surface:
         share = (strength - low) / (high - low)
         return np.asarray((1.0 - share) * rows[right - 1] + share * rows[right])
 
+    def slope(self, term: Term, strength: float) -> Array:
+        """Change of what a term does by its strength, over a tenth of it either way, shape (bins,)."""
+        step = 0.1 * strength
+        return (self.effect(term, strength + step) - self.effect(term, strength - step)) / (2.0 * step)
+
     def bins(self, points: Sequence[Point], z: Sequence[Array]) -> Array:
         """Bins at points, shape (points, bins).
 
