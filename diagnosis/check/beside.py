@@ -113,6 +113,14 @@ class Beside:
         assert self.simulated is not None
         return sample(self.simulated, times)
 
+    def behind(self, lag: float) -> Array:
+        """Simulated values at the picked samples, behind a first-order lag [s]."""
+        assert self.simulated is not None
+        course = self.simulated
+        # beside fitted numbers it is known at the readings alone, which need not be at equal steps
+        even = np.linspace(course.times[0], course.times[-1], len(course.times))
+        return np.asarray(sample(replace(course, times=even, values=lagged(even, self.at(even), lag)), self.times))
+
     @cached_property
     def simulated_there(self) -> Array:
         """Simulated values at the picked samples."""

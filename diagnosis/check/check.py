@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import functools
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -89,42 +90,48 @@ def doubts_of(every: Sequence[Compared]) -> tuple[Doubt, ...]:
             found += _outside(one)
         if not relation and not known and not units:  # a start that another column or unit has is no start
             found += start_doubts(one)
-    found = _without_starts_by_gain(with_odd_starts(found, every), odd, every)
+    gain = functools.cache(lambda title: gain_of_one(*_apart(title, every)))
+    found = _without_starts_by_gain(with_odd_starts(found, every), standing_out, gain)
     told = {d.recording for d in found if d.is_serious}  # why such a recording stands out is known
-    found += [_odd(d, every, d.recording in told) for d in odd]
-    for one in (o for o in every if o.recording.title not in told | standing_out):
-        # numbers that are off hide that it stands out, and not that one channel alone is multiplied
-        gain = gain_of_one(one, [o for o in every if o is not one])
-        found += [gain] if gain is not None else []
+    found += [_odd(d, every, d.recording in told, gain) for d in odd]
+    # numbers that are off hide that a recording stands out, and not that one channel of it alone is multiplied
+    others = [o.recording.title for o in every if o.recording.title not in told | standing_out]
+    found += [d for title in others if (d := gain(title)) is not None]
     if not told:  # else why it is not followed is known
         found += unfollowed(every)
     return tuple(sorted(without_consequences(found), key=lambda d: (not d.is_serious, -d.z)))
 
 
-def _without_starts_by_gain(doubts: Sequence[Doubt], odd: Sequence[Doubt], every: Sequence[Compared]) -> list[Doubt]:
+def _apart(title: str, every: Sequence[Compared]) -> tuple[Compared, list[Compared]]:
+    """A recording, and the others."""
+    one = next(o for o in every if o.recording.title == title)
+    return one, [o for o in every if o is not one]
+
+
+def _without_starts_by_gain(
+    doubts: Sequence[Doubt], standing_out: Collection[str], gain: Callable[[str], Doubt | None]
+) -> list[Doubt]:
     """Doubts without starts that are elsewhere since a sensor reads so many times what it reads in the others.
 
     A start is forgotten or stays; it multiplies nothing that comes after it.
     """
     found = list(doubts)
-    for title in (d.recording for d in odd):
+    for title in standing_out:
         serious = [d for d in found if d.recording == title and d.is_serious]
         if not serious or any(d.kind != "start" for d in serious):
             continue
-        one = next(o for o in every if o.recording.title == title)
-        gain = gain_of_one(one, [o for o in every if o is not one])
-        if gain is not None:
-            found = [d for d in found if d not in serious or d.subject != gain.subject]
+        told = gain(title)
+        if told is not None:
+            found = [d for d in found if d not in serious or d.subject != told.subject]
     return found
 
 
-def _odd(doubt: Doubt, every: Sequence[Compared], is_told: bool) -> Doubt:
+def _odd(doubt: Doubt, every: Sequence[Compared], is_told: bool, gain_at: Callable[[str], Doubt | None]) -> Doubt:
     """A doubt about a recording that stands out: why, where that is known; not serious where another doubt says why."""
     if is_told:
         return replace(doubt, is_serious=False)
-    one = next(o for o in every if o.recording.title == doubt.recording)
-    others = [o for o in every if o is not one]
-    gain = gain_of_one(one, others)
+    one, others = _apart(doubt.recording, every)
+    gain = gain_at(doubt.recording)
     if gain is not None and gain.is_serious:
         return gain
     sensor = sensor_of_one(one, others)

@@ -10,18 +10,17 @@ recording makes its readings late as well: what explains more of them is reporte
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import least_squares, minimize_scalar
 
 from cosim.unit.protocol import Array
-from diagnosis.check.beside import Beside, Compared, lagged
+from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.explain import independent
 from diagnosis.check.jump import INSTANTS, SIZES, Jump, best_jump, offsets
 from diagnosis.check.timing import percent, resolution
 from diagnosis.judge.diagnosis import Doubt
-from diagnosis.recording.series import sample
 from diagnosis.report.display import instant
 
 #: Share of a channel's variance that the scenario leaves at most where it meets it, all numbers as they are.
@@ -190,7 +189,7 @@ class _Lag:
 
     def rest(self, beside: Beside) -> Array:
         """What it leaves of any recording of the channel, SI."""
-        return _behind(beside, self.lag)
+        return np.asarray(beside.measured - beside.behind(self.lag))
 
     def is_beyond(self, one: Compared, beside: Beside, row: float) -> bool:
         """Whether it is longer than what is stated and readings and rows of inputs leave open, the latter [s]."""
@@ -255,27 +254,17 @@ def _jumped(beside: Beside, clock: _Clock | None) -> _Jumped | None:
     return _Jumped(found, begin, _left(beside, offsets(beside.times, found.size, found.at)))
 
 
-def _behind(beside: Beside, lag: float) -> Array:
-    """Readings of a channel without its simulated course behind a lag [s], SI."""
-    assert beside.simulated is not None
-    course = beside.simulated
-    # beside fitted numbers it is known at the readings alone, which need not be at equal steps
-    even = np.linspace(course.times[0], course.times[-1], len(course.times))
-    values = lagged(even, sample(course, even), lag)
-    return np.asarray(beside.measured - sample(replace(course, times=even, values=values), beside.times))
-
-
 def _lag(beside: Beside) -> _Lag | None:
     """The first-order lag that leaves least of a channel; None where that is the shortest or the longest tried."""
     longest = LONGEST * float(np.ptp(beside.times))
     tried = [longest * share for share in LAGS]
-    left = [_left_of(beside, _behind(beside, lag)) for lag in tried]
+    left = [_left_of(beside, beside.measured - beside.behind(lag)) for lag in tried]
     best = int(np.argmin(left))
     if best in (0, len(tried) - 1):
         return None
     ends = float(np.log(tried[best - 1])), float(np.log(tried[best + 1]))
     finer = minimize_scalar(
-        lambda x: _left_of(beside, _behind(beside, float(np.exp(x)))), bounds=ends, method="bounded"
+        lambda x: _left_of(beside, beside.measured - beside.behind(float(np.exp(x)))), bounds=ends, method="bounded"
     )
     return _Lag(float(np.exp(finer.x)), float(finer.fun))
 

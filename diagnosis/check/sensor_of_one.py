@@ -8,17 +8,16 @@ the others are explained, nothing else is claimed, and the search is left to fin
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import minimize_scalar
 
 from cosim.unit.protocol import AnyArray, Array
-from diagnosis.check.beside import Beside, Compared, lagged
-from diagnosis.check.odd_one_out import as_explained, comparable, left_beside, scaled_left
+from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.odd_one_out import as_explained, comparable, left, left_beside, scaled_left
 from diagnosis.check.timing import between, percent
 from diagnosis.judge.diagnosis import Doubt
-from diagnosis.recording.series import sample
 from diagnosis.report.display import instant
 
 #: Lags that are tried first, as shares of the recording; between the neighbours of the best one it is found.
@@ -73,26 +72,23 @@ def _drift(beside: Beside) -> _Explained:
     """A zero that moves in proportion to time."""
     rest, _ = _freed(beside, [beside.measured, beside.times - beside.times[0]])
     begin, end = float(beside.times[0]), float(beside.times[-1])
-    return _Explained("drifted in proportion to time", _share(beside, _without(rest[0], rest[1])), begin, end)
+    drift = rest[1] * (float(rest[0] @ rest[1]) / max(float(rest[1] @ rest[1]), 1e-300))
+    share = left(beside, beside.measured - (rest[0] - drift))
+    return _Explained("drifted in proportion to time", share, begin, end)
 
 
 def _lag(beside: Beside) -> _Explained:
     """A first-order lag."""
-    course = beside.simulated
-    assert course is not None
     span = float(np.ptp(beside.times))
-    even = np.linspace(course.times[0], course.times[-1], len(course.times))
-    values = sample(course, even)
 
-    def left(logarithm: float) -> float:
-        behind = replace(course, times=even, values=lagged(even, values, float(np.exp(logarithm))))
-        return scaled_left(beside, sample(behind, beside.times))
+    def missed(logarithm: float) -> float:
+        return scaled_left(beside, beside.behind(float(np.exp(logarithm))))
 
     tried = [float(np.log(share * span)) for share in LAGS]
-    shares = [left(x) for x in tried]
+    shares = [missed(x) for x in tried]
     best = int(np.argmin(shares))
     ends = tried[max(best - 1, 0)], tried[min(best + 1, len(tried) - 1)]
-    finer = minimize_scalar(left, bounds=ends, method="bounded")
+    finer = minimize_scalar(missed, bounds=ends, method="bounded")
     time = float(np.exp(finer.x))
     what = f"had a lag of about {instant(time, 2)} s"
     return _Explained(what, float(finer.fun), float(beside.times[0]), float(beside.times[-1]))
@@ -120,8 +116,8 @@ def _offset(beside: Beside) -> _Explained:
     gained = float(gains(np.array([begin]), np.array([end]))[0])
     first, last = float(beside.times[begin]), float(beside.times[end - 1])
     what = f"was off by as much from about {between(first, last)} s"
-    left = (float(rest[0] @ rest[0]) - gained) / count - beside.floor**2
-    return _Explained(what, max(left, 0.0) / float(np.var(beside.measured)), first, last)
+    square = (float(rest[0] @ rest[0]) - gained) / count - beside.floor**2
+    return _Explained(what, max(square, 0.0) / float(np.var(beside.measured)), first, last)
 
 
 def _pairs(begins: AnyArray, ends: AnyArray) -> Iterator[tuple[int, int]]:
@@ -138,13 +134,3 @@ def _freed(beside: Beside, rows: Sequence[Array]) -> tuple[list[Array], Array]:
     """Rows without what scale and shift of the simulated course explain, and that basis, shape (readings, 2)."""
     basis = np.linalg.qr(np.stack([np.ones(len(beside.times)), beside.simulated_there], axis=1))[0]
     return [row - basis @ (basis.T @ row) for row in rows], basis
-
-
-def _without(row: Array, other: Array) -> Array:
-    size = float(other @ other)
-    return np.asarray(row - other * (float(row @ other) / size)) if size > 0.0 else row
-
-
-def _share(beside: Beside, rest: Array) -> float:
-    """Share of a channel's variance, beyond what says nothing."""
-    return max(float(np.mean(rest**2)) - beside.floor**2, 0.0) / float(np.var(beside.measured))

@@ -340,6 +340,6 @@ def test_a_lag_is_of_time_and_not_of_readings(tmp_path: Path) -> None:
     times[0], times[-1] = 0.0, 4.0
     assert beside.simulated is not None
     uneven = replace(beside, simulated=replace(beside.simulated, times=times, values=times))
-    behind = uneven.measured - clock_of_one._behind(uneven, lag)
+    behind = uneven.behind(lag)
     expected = uneven.times - lag * (1.0 - np.exp(-uneven.times / lag))
     np.testing.assert_allclose(behind, expected, atol=0.01)

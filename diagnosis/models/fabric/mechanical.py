@@ -89,18 +89,19 @@ class MechanicalModel:
         return np.asarray(np.sum((ends + equations @ moved) ** 2, axis=0))
 
     def shifts(self, runs: Array, slope: Array, point: Point) -> Array:
-        """By how much a strength would be another if a run were the recording, shape (runs,); parameters may move.
+        """By how much a strength would be another if a run were the recording, shape (runs,); empty of a single run.
 
-        Each run of a point is fitted by the mean of the others, along a straight line: the strength that a recording
-        tells scatters as these do, however sharply its curvature tells it.
+        Each run of a point is fitted by the mean of the others, along a straight line, and parameters may move: the
+        strength that a recording tells scatters as these do, however sharply its curvature tells it.
 
         Args:
-            runs: Bins of two runs or more, shape (runs, bins).
+            runs: Their bins, shape (runs, bins).
             slope: Change of the bins by the strength, shape (bins,).
             point: Where they were made.
         """
-        count = len(self.parameters)
-        mean = runs.mean(axis=0)
+        if len(runs) < 2:
+            return np.zeros(0)
+        count, mean = len(self.parameters), runs.mean(axis=0)
         column = -self._whiten(self._seen(mean + slope, point) - self._seen(mean, point))
         equations = np.vstack([np.column_stack([self.base_jacobian(point), column]), np.eye(count, count + 1)])
         found = []

@@ -51,8 +51,8 @@ from diagnosis.search.unit_law import UnitLaw
 START_SPEED = 1e-3
 #: Share of the time of a recording that is simulated first where it is asked whether anything moves at all.
 BEGIN = 0.1
-#: Simulations from starts of their own whose mean is a prediction. Of three, half the gain is needed that chance brings
-#: where one run is compared with another (docs/decisions/0033-means-of-several-runs.md).
+#: Simulations from starts of their own whose mean is a prediction. Of three, a quarter less of a gain is by chance than
+#: of one run against another (docs/decisions/0033-means-of-several-runs.md).
 PREDICTED = 3
 
 

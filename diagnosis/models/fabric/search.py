@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -458,8 +458,23 @@ class _Plan:
         if not terms:
             return outcome
         self._network_point = model.network_point(fitted)
+        known, runs = self._at_other_strengths(terms, point)
+        moved = [t for t in terms if self._is_bounded_elsewhere(t, point, known[t], runs)]
+        if not moved:
+            return outcome
+        found = self.search(settings)
+        for term in moved:
+            interval, values = model.simulated_interval(term), found.best.fit.point.terms.get(term)
+            if interval is not None and values is not None:  # what is fitted lies between simulations that are compared
+                model.take_interval(term, (min(interval[0], values[0]), max(interval[1], values[0])))
+        return found
+
+    def _at_other_strengths(
+        self, terms: Sequence[Term], point: Point
+    ) -> tuple[dict[Term, dict[float, Array]], dict[tuple[Term, float], Array]]:
+        """-2 log posterior of runs at strengths about the fitted ones, and about better ones; and these runs."""
         known: dict[Term, dict[float, Array]] = {t: {} for t in terms}
-        runs_at: dict[tuple[Term, float], Array] = {}
+        made: dict[tuple[Term, float], Array] = {}
         refined = 0
         while True:
             wanted = [(t, s) for t in terms for s in next_sizes(point.terms[t][0], known[t], t.parameters[0])]
@@ -467,28 +482,31 @@ class _Plan:
                 refined += 1
                 wanted = [(t, s) for t in terms if (s := better_size(point.terms[t][0], known[t])) is not None]
             if not wanted:
-                break
+                return known, made
             points = [point.plus(t, (s, *point.terms[t][1:])) for t, s in wanted]
             self._enter_more("the effects found, at other strengths", len(points) * self._confirmed)
             found = self._runs([(self._point(p.base, dict(p.terms)), self._confirmed) for p in points])
             for (term, size), runs in zip(wanted, found):
-                known[term][size] = np.array([np.inf]) if runs is None else model.prepared.misfits(runs, point)
+                known[term][size] = np.array([np.inf])
                 if runs is not None:
-                    runs_at[term, size] = runs
-        is_moved = False
-        for term, misfits in known.items():
-            strength = point.terms[term][0]
-            if not np.isfinite(misfits[strength]).all():
-                continue
-            best = best_size({s: float(np.mean(v)) for s, v in misfits.items()})
-            if best != strength and is_better(best, strength, misfits):
-                self.surface.add(term, best, runs_at[term, best].mean(axis=0), point.base, self._confirmed)
-                is_moved, strength = True, best
-            slope = self.surface.slope(term, strength)
-            shifts = model.prepared.shifts(runs_at[term, strength], slope, point)
-            interval = interval_of(strength, misfits, term.parameters[0])
-            model.take_interval(term, widened(interval, strength, shifts, term.parameters[0]))
-        return self.search(settings) if is_moved else outcome
+                    known[term][size], made[term, size] = self.model.prepared.misfits(runs, point), runs
+
+    def _is_bounded_elsewhere(
+        self, term: Term, point: Point, misfits: Mapping[float, Array], runs: Mapping[tuple[Term, float], Array]
+    ) -> bool:
+        """Tell the model the interval of a strength; whether it is about a better one than the fitted one."""
+        model, strength = self.model, point.terms[term][0]
+        if not np.isfinite(misfits[strength]).all():
+            return False
+        best = best_size({s: float(np.mean(v)) for s, v in misfits.items()})
+        is_moved = best != strength and is_better(best, strength, misfits)
+        if is_moved:
+            self.surface.add(term, best, runs[term, best].mean(axis=0), point.base, self._confirmed)
+            strength = best
+        shifts = model.prepared.shifts(runs[term, strength], self.surface.slope(term, strength), point)
+        interval = interval_of(strength, misfits, term.parameters[0])
+        model.take_interval(term, widened(interval, strength, shifts, term.parameters[0]))
+        return is_moved
 
 
 def _largest_gain(outcome: Outcome) -> float:
