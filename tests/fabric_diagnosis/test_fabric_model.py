@@ -72,6 +72,16 @@ def test_a_prediction_is_the_mean_of_runs_from_starts_of_their_own(found):
     assert {s.channel.scatter_runs for s in found.runs[0].series if s.channel.name in MARKERS} == {3}
 
 
+def test_what_judges_is_called_by_its_engine(found, short):
+    """A fabric of MuJoCo was judged by "free runs of Bullet"."""
+    point = Point(np.zeros(len(found.parameters)))
+    assert found.judged_by(point).startswith("means of 3 free runs of Bullet, driven by the coil network")
+    given = small()
+    fabric = given.components["fabric"].model_copy(update={"engine": "mujoco"})
+    other = given.model_copy(update={"components": {**given.components, "fabric": fabric}})
+    assert "free runs of MuJoCo, driven" in model_of(other, [short], catalogue()).judged_by(point)
+
+
 def test_a_prediction_of_which_one_run_stops_is_not_finite(found, monkeypatch):
     """The two that go on would hide it."""
     made = found.fabric_runs.make

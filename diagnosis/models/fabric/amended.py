@@ -17,11 +17,23 @@ from diagnosis.search.problem import Point
 if TYPE_CHECKING:
     from diagnosis.models.fabric.model import FabricModel
 
-#: What judged the recordings that were held out.
-BY_BULLET = (
-    "free runs of Bullet, driven by the coil network: the actuator ignores the fabric, so the closed co-simulation "
-    "gives the same until contacts amplify the last digits (docs/fabric-diagnosis.md)"
-)
+#: Engine to how it is called.
+ENGINES = {"bullet": "Bullet", "mujoco": "MuJoCo"}
+
+
+def judged_by(engine: str, runs: int, has_network: bool) -> str:
+    """What simulates readings that judge, for people.
+
+    >>> judged_by("mujoco", 3, False)
+    'means of 3 free runs of MuJoCo in the closed co-simulation (docs/fabric-diagnosis.md)'
+    """
+    what = f"means of {runs} free runs of {ENGINES[engine]}"
+    if not has_network:
+        return f"{what} in the closed co-simulation (docs/fabric-diagnosis.md)"
+    return (
+        f"{what}, driven by the coil network: the actuator ignores the fabric, so the closed co-simulation gives the "
+        "same until contacts amplify the last digits (docs/fabric-diagnosis.md)"
+    )
 
 
 def amend_fabric(scenario: Scenario, model: FabricModel, point: Point, folder: Path) -> Path:

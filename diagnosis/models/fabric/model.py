@@ -19,7 +19,7 @@ from diagnosis.models.answers import Answers
 from diagnosis.models.coil_network.kernel.places import Place
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.translate import NoCoilNetwork, translate
-from diagnosis.models.fabric.amended import BY_BULLET, amend_fabric
+from diagnosis.models.fabric.amended import amend_fabric, judged_by
 from diagnosis.models.fabric.bins import Binning
 from diagnosis.models.fabric.camera import Camera, CameraLaw
 from diagnosis.models.fabric.laws import LinkPlace, fabric_laws, link_laws, link_places
@@ -462,8 +462,10 @@ class FabricModel(ModelBase):
         return search_fabric(self, settings, on_progress)
 
     def judged_by(self, point: Point) -> str:
-        """Bullet, driven by the coil network."""
-        return BY_BULLET
+        """The engine, driven by the coil network or in the closed co-simulation."""
+        given = self._scenario.components[self.component]
+        assert isinstance(given, FabricComponent)
+        return judged_by(given.engine, PREDICTED, self.network is not None)
 
     def amend(self, scenario: Scenario, point: Point, folder: Path) -> Path:
         """See `diagnosis.models.fabric.amended.amend_fabric`."""
