@@ -13,7 +13,15 @@ from diagnosis.candidates.registry import catalogue
 from diagnosis.judge.estimates import estimated, estimates
 from diagnosis.models.build import model_of
 from diagnosis.models.fabric.model import FabricModel
-from diagnosis.models.fabric.strengths import better_size, fitted_sizes, interval_of, is_better, next_sizes, widened
+from diagnosis.models.fabric.strengths import (
+    best_size,
+    better_size,
+    fitted_sizes,
+    interval_of,
+    is_better,
+    next_sizes,
+    widened,
+)
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.problem import TermParameter
 from diagnosis.search.search import Settings
@@ -130,6 +138,15 @@ def test_a_fitted_strength_that_is_nearly_the_best_stays() -> None:
     assert better_size(0.175, known) is None
     level = {s: runs(300.0 + ((s - 0.2) / 0.02) ** 2, 20.0) for s in (0.0875, 0.175, 0.2, 0.35)}
     assert not is_better(0.2, 0.175, level)  # by less than both means scatter
+
+
+def test_no_effect_at_all_is_no_better_strength() -> None:
+    """A row of springs as good without any loss: a surface has no knot there."""
+    known = {s: runs(300.0 + 1e4 * s, 1.0) for s in (0.0, 0.1, 0.2, 0.4)}
+    assert best_size({s: float(np.mean(v)) for s, v in known.items()}) == 0.1
+    assert better_size(0.2, known) is None
+    turned = {s: runs(300.0 + 1e4 * (s + 0.05) ** 2, 1.0) for s in (0.0, 0.1, 0.2)}
+    assert better_size(0.1, turned) is None  # the other way is another effect
 
 
 def test_an_interval_holds_what_one_more_run_would_be_fitted_by() -> None:

@@ -97,8 +97,7 @@ def search_fabric(
     the ensemble as a null: its largest gain is the least that counts. 5. The search itself, on what was simulated: for
     one effect first, then for more beside it, since contacts of a fabric with an effect scatter by another amount than
     those of one without. Hopeful effects are simulated where they were fitted, and the best explanation from several
-    starts. 6. What was found is simulated at other strengths: which of them meets the recordings best, and between
-    which they do as well.
+    starts. 6. What was found is simulated at other strengths: between which it meets the recordings as well.
 
     Args:
         model: Model and training recordings; its mechanical part is made here.
@@ -123,7 +122,7 @@ def search_fabric(
     if outcome.best.terms:
         more = replace(own, floor=max(own.floor, plan.margin_beside()))
         outcome = plan.settled(plan.search(more), more)
-        outcome = plan.bound_strengths(outcome, more)
+        plan.bound_strengths(outcome)
     model.take_scatter(model.scatter())
     return outcome
 
@@ -445,29 +444,18 @@ class _Plan:
             self.surface.add(strongest, point.terms[strongest][0], corrected, point.base, len(found))
         self._scatter_of(members)
 
-    def bound_strengths(self, outcome: Outcome, settings: Settings) -> Outcome:
-        """Simulate every effect that was found at other strengths: which is the best, and between which as good.
-
-        Returns:
-            The outcome of another search, where one meets the recordings better than the fitted one does.
-        """
+    def bound_strengths(self, outcome: Outcome) -> None:
+        """Simulate every effect that was found at other strengths: between which it meets the recordings as well."""
         model, laws = self.model, set(self.model.laws())
         fitted = outcome.best.fit.point
         point = model.own_point(fitted)
         terms = [t for t in point.terms if t in laws and point.terms[t][0] != 0.0]
         if not terms:
-            return outcome
+            return
         self._network_point = model.network_point(fitted)
         known, runs = self._at_other_strengths(terms, point)
-        moved = [t for t in terms if self._is_bounded_elsewhere(t, point, known[t], runs)]
-        if not moved:
-            return outcome
-        found = self.search(settings)
-        for term in moved:
-            interval, values = model.simulated_interval(term), found.best.fit.point.terms.get(term)
-            if interval is not None and values is not None:  # what is fitted lies between simulations that are compared
-                model.take_interval(term, (min(interval[0], values[0]), max(interval[1], values[0])))
-        return found
+        for term in terms:
+            self._bound(term, point, known[term], runs)
 
     def _at_other_strengths(
         self, terms: Sequence[Term], point: Point
@@ -491,22 +479,18 @@ class _Plan:
                 if runs is not None:
                     known[term][size], made[term, size] = self.model.prepared.misfits(runs, point), runs
 
-    def _is_bounded_elsewhere(
+    def _bound(
         self, term: Term, point: Point, misfits: Mapping[float, Array], runs: Mapping[tuple[Term, float], Array]
-    ) -> bool:
-        """Tell the model the interval of a strength; whether it is about a better one than the fitted one."""
-        model, strength = self.model, point.terms[term][0]
+    ) -> None:
+        """Tell the model the interval of a strength: about the best one, and with the fitted one."""
+        strength = point.terms[term][0]
         if not np.isfinite(misfits[strength]).all():
-            return False
+            return
         best = best_size({s: float(np.mean(v)) for s, v in misfits.items()})
-        is_moved = best != strength and is_better(best, strength, misfits)
-        if is_moved:
-            self.surface.add(term, best, runs[term, best].mean(axis=0), point.base, self._confirmed)
-            strength = best
-        shifts = model.prepared.shifts(runs[term, strength], self.surface.slope(term, strength), point)
-        interval = interval_of(strength, misfits, term.parameters[0])
-        model.take_interval(term, widened(interval, strength, shifts, term.parameters[0]))
-        return is_moved
+        best = best if best != strength and is_better(best, strength, misfits) else strength
+        shifts = self.model.prepared.shifts(runs[term, best], self.surface.slope(term, best), point)
+        low, high = widened(interval_of(best, misfits, term.parameters[0]), best, shifts, term.parameters[0])
+        self.model.take_interval(term, (min(low, strength), max(high, strength)))
 
 
 def _largest_gain(outcome: Outcome) -> float:

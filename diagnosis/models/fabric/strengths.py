@@ -102,7 +102,7 @@ def better_size(strength: float, misfits: Mapping[float, Array]) -> float | None
     """
     means = {s: _mean(v)[0] for s, v in misfits.items() if np.isfinite(v).all()}
     places = sorted(means)
-    at = places.index(best_size(means)) if means else 0
+    at = places.index(best_size(means)) if any(means) else 0
     if not 0 < at < len(places) - 1:
         return None
     (a, b, c), (f, g, h) = places[at - 1 : at + 2], [means[p] for p in places[at - 1 : at + 2]]
@@ -111,12 +111,13 @@ def better_size(strength: float, misfits: Mapping[float, Array]) -> float | None
         return None
     # slopes at the middles of both pieces of a parabola; between them it turns
     least = round(0.5 * (a + b) - left * 0.5 * (c - a) / (right - left), 12)
-    return None if any(abs(least - p) <= APART * abs(strength) for p in places) else least
+    is_known = any(abs(least - p) <= APART * abs(strength) for p in places)
+    return None if is_known or least * strength <= 0.0 else least
 
 
 def best_size(means: Mapping[float, float]) -> float:
-    """The strength that meets the recordings best."""
-    return min(means, key=lambda s: means[s])
+    """The strength that meets the recordings best, but for none: whether there is any effect the search has judged."""
+    return min((s for s in means if s), key=lambda s: means[s])
 
 
 def is_better(size: float, strength: float, misfits: Mapping[float, Array]) -> bool:
