@@ -1,4 +1,4 @@
-"""The factor on a number, or on an input, with which least is left of a recording."""
+"""The factor on a number, an input or a time constant with which least is left of a recording."""
 
 from __future__ import annotations
 

@@ -11,10 +11,10 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from cosim.unit.protocol import AnyArray, Array
 from diagnosis.check.beside import Beside, Compared
+from diagnosis.check.factors import best_logarithm
 from diagnosis.check.odd_one_out import as_explained, comparable, left, left_beside, scaled_left
 from diagnosis.check.timing import between, percent
 from diagnosis.judge.diagnosis import Doubt
@@ -70,11 +70,8 @@ def sensor_of_one(one: Compared, others: Sequence[Compared]) -> Doubt | None:
 
 def _drift(beside: Beside) -> _Explained:
     """A zero that moves in proportion to time."""
-    rest, _ = _freed(beside, [beside.measured, beside.times - beside.times[0]])
     begin, end = float(beside.times[0]), float(beside.times[-1])
-    drift = rest[1] * (float(rest[0] @ rest[1]) / max(float(rest[1] @ rest[1]), 1e-300))
-    share = left(beside, beside.measured - (rest[0] - drift))
-    return _Explained("drifted in proportion to time", share, begin, end)
+    return _Explained("drifted in proportion to time", _left_with(beside, beside.times - begin), begin, end)
 
 
 def _lag(beside: Beside) -> _Explained:
@@ -84,22 +81,17 @@ def _lag(beside: Beside) -> _Explained:
     def missed(logarithm: float) -> float:
         return scaled_left(beside, beside.behind(float(np.exp(logarithm))))
 
-    tried = [float(np.log(share * span)) for share in LAGS]
-    shares = [missed(x) for x in tried]
-    best = int(np.argmin(shares))
-    ends = tried[max(best - 1, 0)], tried[min(best + 1, len(tried) - 1)]
-    finer = minimize_scalar(missed, bounds=ends, method="bounded")
-    time = float(np.exp(finer.x))
-    what = f"had a lag of about {instant(time, 2)} s"
-    return _Explained(what, float(finer.fun), float(beside.times[0]), float(beside.times[-1]))
+    logarithm, share = best_logarithm(missed, [float(np.log(s * span)) for s in LAGS])
+    what = f"had a lag of about {instant(float(np.exp(logarithm)), 2)} s"
+    return _Explained(what, share, float(beside.times[0]), float(beside.times[-1]))
 
 
 def _offset(beside: Beside) -> _Explained:
     """A zero that is off between two instants."""
-    rest, basis = _freed(beside, [beside.measured])
-    count = len(beside.times)
+    basis, count = _basis(beside), len(beside.times)
+    rest = _freed(beside.measured, basis)
     # sums of the rest and of the basis up to each reading: an offset from i to j is a difference of two of them
-    ahead = np.concatenate([[0.0], np.cumsum(rest[0])])
+    ahead = np.concatenate([[0.0], np.cumsum(rest)])
     freed = np.vstack([np.zeros(basis.shape[1]), np.cumsum(basis, axis=0)])
 
     def gains(begins: AnyArray, ends: AnyArray) -> Array:
@@ -113,11 +105,11 @@ def _offset(beside: Beside) -> _Explained:
     step = int(np.ceil(count / (INSTANTS - 1)))
     near = [np.arange(max(at - step, 0), min(at + step, count) + 1) for at in (begin, end)]
     begin, end = _best(gains, _pairs(*near))
-    gained = float(gains(np.array([begin]), np.array([end]))[0])
+    there = np.arange(count)
+    box = ((there >= begin) & (there < end)).astype(np.float64)
     first, last = float(beside.times[begin]), float(beside.times[end - 1])
     what = f"was off by as much from about {between(first, last)} s"
-    square = (float(rest[0] @ rest[0]) - gained) / count - beside.floor**2
-    return _Explained(what, max(square, 0.0) / float(np.var(beside.measured)), first, last)
+    return _Explained(what, _left_with(beside, box), first, last)
 
 
 def _pairs(begins: AnyArray, ends: AnyArray) -> Iterator[tuple[int, int]]:
@@ -130,7 +122,19 @@ def _best(gains: Callable[[AnyArray, AnyArray], Array], pairs: Iterator[tuple[in
     return int(best[0]), int(best[1])
 
 
-def _freed(beside: Beside, rows: Sequence[Array]) -> tuple[list[Array], Array]:
-    """Rows without what scale and shift of the simulated course explain, and that basis, shape (readings, 2)."""
-    basis = np.linalg.qr(np.stack([np.ones(len(beside.times)), beside.simulated_there], axis=1))[0]
-    return [row - basis @ (basis.T @ row) for row in rows], basis
+def _left_with(beside: Beside, column: Array) -> float:
+    """Share of a channel's variance that the simulated course, scaled and shifted, and a column leave."""
+    basis = _basis(beside)
+    rest, free = _freed(beside.measured, basis), _freed(column, basis)
+    free = free * (float(rest @ free) / max(float(free @ free), 1e-300))
+    return left(beside, beside.measured - (rest - free))
+
+
+def _basis(beside: Beside) -> Array:
+    """Orthonormal columns of what scale and shift of the simulated course make, shape (readings, 2)."""
+    return np.linalg.qr(np.stack([np.ones(len(beside.times)), beside.simulated_there], axis=1))[0]
+
+
+def _freed(row: Array, basis: Array) -> Array:
+    """A row without what a basis explains of it."""
+    return np.asarray(row - basis @ (basis.T @ row))

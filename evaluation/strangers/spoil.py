@@ -202,8 +202,7 @@ def reversed_sign(files: Files, rng: Rng) -> Fault | None:
 
 def gain(files: Files, rng: Rng) -> Fault | None:
     """A sensor that reads too much or too little, about zero."""
-    name = _one(rng, list(files.channels))
-    assert name is not None
+    name = str(rng.choice(sorted(files.channels)))
     factor = float(rng.choice([rng.uniform(0.6, 0.85), rng.uniform(1.18, 1.6)]))
     files.put(name, factor * files.values(name))
     return Fault("gain", files.folder.name, (name,), f"{name} reads {factor:.3f} times what it should")
@@ -252,8 +251,7 @@ def clock_jump(files: Files, rng: Rng) -> Fault | None:
 
 def stuck(files: Files, rng: Rng) -> Fault | None:
     """A sensor that shows its last value for a while."""
-    name = _one(rng, list(files.channels))
-    assert name is not None
+    name = str(rng.choice(sorted(files.channels)))
     values, held = files.values(name).copy(), _stretch(rng, files.times(name))
     values[held] = values[np.argmax(held)]
     files.put(name, values)
@@ -262,8 +260,7 @@ def stuck(files: Files, rng: Rng) -> Fault | None:
 
 def offset(files: Files, rng: Rng) -> Fault | None:
     """A sensor that is off for a while."""
-    name = _one(rng, list(files.channels))
-    assert name is not None
+    name = str(rng.choice(sorted(files.channels)))
     values, off = files.values(name).copy(), _stretch(rng, files.times(name))
     size = float(rng.choice([-1.0, 1.0])) * rng.uniform(0.3, 1.0) * float(np.nanstd(values))
     values[off] += size
@@ -273,8 +270,7 @@ def offset(files: Files, rng: Rng) -> Fault | None:
 
 def drift(files: Files, rng: Rng) -> Fault | None:
     """A sensor that drifts over the recording."""
-    name = _one(rng, list(files.channels))
-    assert name is not None
+    name = str(rng.choice(sorted(files.channels)))
     values, times = files.values(name), files.times(name)
     size = float(rng.choice([-1.0, 1.0])) * rng.uniform(0.5, 1.5) * float(np.nanstd(values))
     files.put(name, values + size * times / times[-1])
@@ -283,8 +279,7 @@ def drift(files: Files, rng: Rng) -> Fault | None:
 
 def lag(files: Files, rng: Rng) -> Fault | None:
     """A sensor with a lag of first order."""
-    name = _one(rng, list(files.channels))
-    assert name is not None
+    name = str(rng.choice(sorted(files.channels)))
     values, times = files.values(name).copy(), files.times(name)
     tau = rng.uniform(0.02, 0.06) * float(times[-1])
     for i in range(1, len(values)):
@@ -296,8 +291,7 @@ def lag(files: Files, rng: Rng) -> Fault | None:
 
 def clipped(files: Files, rng: Rng) -> Fault | None:
     """A sensor whose range ends within the readings."""
-    name = _one(rng, list(files.channels))
-    assert name is not None
+    name = str(rng.choice(sorted(files.channels)))
     top = float(np.nanquantile(files.values(name), rng.uniform(0.65, 0.85)))
     files.put(name, np.minimum(files.values(name), top))
     return Fault("sensor", files.folder.name, (name,), f"{name} ends at {top:.4g}")
