@@ -18,6 +18,8 @@ from cosim.unit.protocol import AnyArray, Array
 _CLEARLY = 0.5
 #: From this share of its reach on a marker may go beyond it.
 _NEAR_END = 0.9
+#: A marker that leaves its reach is sought up to so many times as far.
+_BEYOND = 2.0
 #: Deviation of an expected place [m], at once and by what it may move in a second [m/s].
 _AT_ONCE, _PER_SECOND = 2e-3, 0.04
 #: No place is expected over a longer time [s].
@@ -59,17 +61,19 @@ def follow_points(
     away = np.linalg.norm(found.places - points, axis=2)
     farthest = np.nanmax(np.where(np.isfinite(away), away, 0.0), axis=0)
     last = int(np.argmax(farthest))
-    if not farthest[last] > _NEAR_END * reach or not np.any(_overlapping(points, reach)):
+    if not farthest[last] > _NEAR_END * reach:
         return found, ()
-    careful = follow(times, pictures, len(points), point_assigner(points, reach, is_reach_sure=False))
-    return careful, (
+    said = (
         f"reach: marker {last + 1} is up to {1e3 * farthest[last]:.3g} mm from its place, of {1e3 * reach:.3g} mm that "
-        "it may be, and may go farther; since reaches overlap, those markers "
-        "are left open: state a larger `reach`, beyond which none goes",
+        "it may be, and may go farther; {}: state a larger `reach`, beyond which none goes"
     )
+    careful = follow(times, pictures, len(points), point_assigner(points, reach, is_reach_sure=False))
+    if np.any(_overlapping(points, reach)):
+        return careful, (said.format("since reaches overlap, those markers are left open"),)
+    return careful, (said.format("where a spot beyond its reach may be it, it is a gap"),)
 
 
-def point_assigner(points: Array, reach: float, is_reach_sure: bool = False) -> Assign:
+def point_assigner(points: Array, reach: float, is_reach_sure: bool) -> Assign:
     """Assignment of spots to markers that stay near known places, all at once.
 
     Args:
@@ -94,6 +98,9 @@ def point_assigner(points: Array, reach: float, is_reach_sure: bool = False) -> 
         left = (spots.share > 0.5) & ~np.isin(np.arange(len(spots)), chosen)
         if not is_reach_sure or (np.any(left) and np.any(chosen < 0)):
             chosen[is_near] = -1
+        if not is_reach_sure:
+            # A spot beyond the reach may be the marker, and the one within reach something else.
+            chosen[np.any(far[:, left] <= _BEYOND * reach, axis=1)] = -1
         # Several spots within one marker's reach leave it open which it is, unless every marker has one and any other
         # choice costs clearly more.
         several = np.flatnonzero(np.sum((far <= reach) & (spots.share > 0.5), axis=1) > 1)
