@@ -61,22 +61,30 @@ class _Asking:
         self._is_taken = True
 
 
+#: Who is asked, the innermost last; SIGTERM asks where SIGINT is ignored.
+_ASKED: list[_Asking] = []
+
+
 @contextmanager
 def first_interrupt(ask: Callable[[], bool]) -> Iterator[None]:
     """Ask what a SIGINT may do: one that is taken (True) does no more, and the next one acts at once.
 
-    Outside the main thread, or where a program has its own handler, nothing is changed. Within each other the innermost
-    is asked: a run within a search still ends between two macro-steps.
+    Outside the main thread, or where a program has its own handler, nothing is changed. Where SIGINT is ignored, as a
+    shell without job control has it for what it starts with `&`, it stays ignored, and SIGTERM asks. Within each other
+    the innermost is asked: a run within a search still ends between two macro-steps.
     """
     previous = signal.getsignal(signal.SIGINT)
-    is_own = previous is signal.default_int_handler or isinstance(previous, _Asking)
+    is_own = previous in (signal.default_int_handler, signal.SIG_IGN) or isinstance(previous, _Asking)
     if threading.current_thread() is not threading.main_thread() or not is_own:
         yield
         return
-    signal.signal(signal.SIGINT, _Asking(ask))
+    _ASKED.append(_Asking(ask))
+    if previous is not signal.SIG_IGN:
+        signal.signal(signal.SIGINT, _ASKED[-1])
     try:
         yield
     finally:
+        _ASKED.pop()
         signal.signal(signal.SIGINT, previous)
 
 
@@ -84,7 +92,7 @@ def end_as_interrupt() -> None:
     """Take SIGTERM as a Ctrl-C: from now on, in this process.
 
     Without it nothing of a long command would be kept or answered. The second one, or a Ctrl-C after it, acts at once.
-    Outside the main thread nothing is changed.
+    It does so where SIGINT is ignored, too. Outside the main thread nothing is changed.
     """
     if threading.current_thread() is not threading.main_thread():
         return
@@ -93,11 +101,20 @@ def end_as_interrupt() -> None:
     def interrupt(number: int, frame: FrameType | None) -> None:
         nonlocal last
         now = time.monotonic()
-        if now - last >= ONE:
-            last = now
+        if now - last < ONE:
+            return
+        last = now
+        if _is_ignored():
+            (_ASKED[-1] if _ASKED else signal.default_int_handler)(number, frame)
+        else:
             signal.raise_signal(signal.SIGINT)
 
     signal.signal(signal.SIGTERM, interrupt)
+
+
+def _is_ignored() -> bool:
+    """Whether this process ignores SIGINT."""
+    return signal.getsignal(signal.SIGINT) is signal.SIG_IGN
 
 
 def keep_swallowed_interrupts() -> None:
@@ -112,7 +129,8 @@ def keep_swallowed_interrupts() -> None:
     def send_again(ignored: sys.UnraisableHookArgs) -> None:
         if ignored.exc_type is not None and issubclass(ignored.exc_type, KeyboardInterrupt):
             main = threading.main_thread().ident or 0
-            timer = threading.Timer(AGAIN, signal.pthread_kill, (main, signal.SIGINT))
+            number, after = (signal.SIGTERM, ONE + AGAIN) if _is_ignored() else (signal.SIGINT, AGAIN)
+            timer = threading.Timer(after, signal.pthread_kill, (main, number))
             timer.daemon = True  # a command that has ended meanwhile does not wait for it
             timer.start()
         else:

@@ -138,10 +138,14 @@ def test_a_run_that_fails_exits_with_1_and_says_what_is_kept(start, tmp_path):
     assert "Traceback" not in answer.err
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_ctrl_c_exits_with_130_and_the_run_resumes_to_the_same_result(start, cosim, tmp_path, number):
+#: As a shell without job control has it for what it starts with `&`.
+IGNORED = "import signal; signal.signal(signal.SIGINT, signal.SIG_IGN)"
+
+
+@pytest.mark.parametrize(("number", "prelude"), [(signal.SIGINT, ""), (signal.SIGTERM, ""), (signal.SIGTERM, IGNORED)])
+def test_ctrl_c_exits_with_130_and_the_run_resumes_to_the_same_result(start, cosim, tmp_path, number, prelude):
     scenario, folder = shortened("passive_drape", "1 s", checkpoint_step="0.1 s"), tmp_path / "run"
-    process = start("run", file(tmp_path, scenario), "--out", folder, "--no-plots")
+    process = start("run", file(tmp_path, scenario), "--out", folder, "--no-plots", prelude=prelude)
     while process.poll() is None and not list(folder.glob("checkpoints/*.npz")):
         time.sleep(0.02)
     process.send_signal(number)

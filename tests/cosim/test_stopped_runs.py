@@ -169,6 +169,29 @@ def test_a_signal_to_end_is_an_interrupt_and_its_echo_from_the_group_is_none(mon
             os.kill(os.getpid(), signal.SIGTERM)
 
 
+@pytest.mark.usefixtures("_ended_as_interrupt")
+def test_a_signal_to_end_is_an_interrupt_where_ctrl_c_is_ignored(monkeypatch):
+    """What a script starts with `&` ignores SIGINT; `kill` and `timeout` must end it all the same."""
+    now = [100.0]
+    monkeypatch.setattr("cosim.interrupt.time.monotonic", lambda: now[0])
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        with deferred_interrupt() as interrupt:
+            os.kill(os.getpid(), signal.SIGINT)
+            assert not interrupt.is_requested
+            os.kill(os.getpid(), signal.SIGTERM)
+            assert interrupt.is_requested
+            now[0] += 2.0
+            with pytest.raises(KeyboardInterrupt):
+                os.kill(os.getpid(), signal.SIGTERM)
+        now[0] += 2.0
+        with pytest.raises(KeyboardInterrupt):
+            os.kill(os.getpid(), signal.SIGTERM)
+        assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 def test_a_run_within_a_search_is_asked_first():
     asked = []
     with first_interrupt(lambda: asked.append(1) or True), deferred_interrupt() as interrupt:
