@@ -37,7 +37,7 @@ CANDIDATE = CandidateTerm(
     lines={
         "supply": """
             I_limit = share > 0.0 ? limit : I_limit;
-            limited = share;
+            limited = share > 0.0 ? share : limited;
         """,
     },
     signature="Supply current flat at one value while the voltage is high; nothing below it.",

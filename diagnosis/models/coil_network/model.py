@@ -22,6 +22,7 @@ from diagnosis.models.coil_network.kernel.sensitivities import flat_sensitivitie
 from diagnosis.models.coil_network.priors import daily_priors, own_priors, stated_priors
 from diagnosis.models.coil_network.rig_scales import rig_scales
 from diagnosis.models.coil_network.runs import Run, check_rig, clocks, deviation, network_quantity, own_name
+from diagnosis.models.coil_network.stated import stated_candidates
 from diagnosis.models.coil_network.term_at import term_at
 from diagnosis.models.coil_network.translate import translate
 from diagnosis.models.protocol import ModelBase
@@ -83,7 +84,8 @@ class CoilNetworkModel(ModelBase):
         for recording in recordings:  # what it cannot compare is said before it is compiled
             for channel in recording.channels.values():
                 network_quantity(own_name(channel.target, translations[0]), translations[0].layout, recording)
-        self.network = CoilNetwork(translations[0].layout, [*network_inputs.CANDIDATES, *catalogue])
+        stated = stated_candidates(law for t in translations for law in t.parameters.terms)
+        self.network = CoilNetwork(translations[0].layout, [*network_inputs.CANDIDATES, *stated, *catalogue])
         self._candidates = {t.identifier: t for t in catalogue}
         self._titles = labels(recordings)
         self._inputs: dict[Term, tuple[CandidateTerm, Place]] = {}
@@ -234,7 +236,7 @@ class CoilNetworkModel(ModelBase):
         base = {**self.runs[run].translation.parameters.base, **self._sensors}
         base["cycles_before"] = self.seats[run].cycles_before
         self._sets[run].vary(base, z)
-        return CoilNetworkParameters(base, self._arrays(there))
+        return CoilNetworkParameters(base, {**self.runs[run].translation.parameters.terms, **self._arrays(there)})
 
     def _arrays(self, there: Mapping[Term, tuple[float, ...]]) -> dict[str, Mapping[str, float | Array]]:
         terms: dict[str, Mapping[str, float | Array]] = {}

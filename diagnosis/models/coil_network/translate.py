@@ -28,6 +28,7 @@ from cosim.unit.quantity import PhysicalValue
 from diagnosis.models.coil_network.kernel.inputs import Drive, Programme
 from diagnosis.models.coil_network.kernel.layout import CoilNetworkLayout
 from diagnosis.models.coil_network.kernel.parameters import CoilNetworkParameters
+from diagnosis.models.coil_network.stated import stated_terms
 from diagnosis.models.coil_network.wiring import fault, reached, series_resistances
 
 #: Standard gravity as mechanics.hanging_mass takes it [m/s^2].
@@ -237,12 +238,14 @@ class _Reader:
         # an FMU that was built before it had one starts every coil on the heating branch
         base["initial_loop_position"] = values.get("initial_loop_position", np.zeros(()))
         base["use_regressed_cooling_rate"] = float(values["use_regressed_cooling_rate"])
+        terms: Mapping[str, Mapping[str, float | Array]] = {}
         if self.circuit is not None:
             circuit = self.scenario.components[self.circuit]
             assert isinstance(circuit, CircuitComponent)
             start = nanoseconds(self.scenario.time.start) * 1e-9
+            base["string_resistance"], base["supply_resistance"] = series_resistances(circuit, start)
             try:
-                base["string_resistance"], base["supply_resistance"] = series_resistances(circuit, start)
+                terms = stated_terms(circuit, start)
             except ValueError as error:
                 raise NoCoilNetwork(str(error)) from error
             self._break_coils(base, circuit)
@@ -253,7 +256,7 @@ class _Reader:
         unread = sorted(n for n in self.assembly.parameters[self.actuator].values if n in values.unread)
         if unread:
             raise NoCoilNetwork(f"a network has no parameter {unread[0]} of {self.actuator}")
-        return CoilNetworkParameters(base)
+        return CoilNetworkParameters(base, terms)
 
     def _break_coils(self, base: dict[str, float | Array], circuit: CircuitComponent) -> None:
         """Coils that are open or shorted in the scenario have the resistance that the circuit gives them."""

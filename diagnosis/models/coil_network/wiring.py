@@ -10,6 +10,7 @@ from cosim.components import CircuitComponent, ContactElement, SourceResistanceE
 from cosim.connection import Connection
 from cosim.system import System
 from cosim.unit.protocol import Array
+from diagnosis.models.coil_network.stated import is_constant
 
 
 def fault(system: System, actuator: str, circuit: str | None, load: str | None, driven: Sequence[str]) -> str:
@@ -66,7 +67,7 @@ def reached(connections: Sequence[Connection], size: int) -> bool:
 
 
 def series_resistances(circuit: CircuitComponent, start: float) -> tuple[float | Array, float | Array]:
-    """Resistance in series with every string and with every source, elements of the circuit among them [ohm].
+    """Resistance in series with every string and with every source, constant elements of the circuit among them [ohm].
 
     Args:
         circuit: The circuit.
@@ -74,21 +75,14 @@ def series_resistances(circuit: CircuitComponent, start: float) -> tuple[float |
 
     Returns:
         For the strings and for the sources; one number where all are alike.
-
-    Raises:
-        ValueError: It has an element that is no constant resistance; the text says which.
     """
     strings = np.full(len(circuit.strings), circuit.string_resistance.to("ohm"))
     sources = np.full(1 if circuit.supply == "common" else len(circuit.strings), circuit.supply_resistance.to("ohm"))
     for element in circuit.elements:
-        is_late = isinstance(element, ContactElement) and element.instant is not None
-        if isinstance(element, ContactElement) and not (is_late and element.instant.to("s") > start):  # type: ignore[union-attr]
+        if isinstance(element, ContactElement) and is_constant(element, start):
             strings[element.string - 1] += element.resistance.to("ohm")
         elif isinstance(element, SourceResistanceElement):
             sources[element.supply - 1] += element.resistance.to("ohm")
-        else:
-            what = f"{element.kind} from an instant on" if is_late else element.kind
-            raise ValueError(f"a network has no element of the circuit of kind {what}")
     return _one(strings), _one(sources)
 
 
