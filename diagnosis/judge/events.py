@@ -172,7 +172,8 @@ def of_an_input(
     """Estimates of an input's fault, whose begin and end may be anywhere while that would have changed nothing.
 
     While an input that stayed is stated not to move, or one that is a share off is stated as zero, the curvature says
-    nothing, see `instant_interval`. Estimates of other terms are as they were.
+    nothing, see `instant_interval`: it holds whatever the bounds allow, and the likelihood alone tells. Estimates of
+    other terms are as they were.
 
     Args:
         estimates: One for each parameter of the term, in order.
@@ -187,7 +188,9 @@ def of_an_input(
     found = []
     for number, (e, p) in enumerate(zip(estimates, term.parameters)):
         lower, upper = _as_good(term, number, fit, model, doubt) if p.is_instant else (e.lower, e.upper)
-        found.append(replace(e, lower=min(e.lower, lower), upper=max(e.upper, upper)))
+        if e.lower > p.lower or e.upper < p.upper:  # the curvature says something
+            lower, upper = min(e.lower, lower), max(e.upper, upper)
+        found.append(replace(e, lower=lower, upper=upper))
     return tuple(found)
 
 

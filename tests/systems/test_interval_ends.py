@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,8 @@ import pytest
 from cosim.scenario import load_scenario
 from diagnosis.candidates.registry import catalogue
 from diagnosis.faults.model import with_faults
-from diagnosis.judge.estimates import estimated
+from diagnosis.judge.estimates import estimated, estimates
+from diagnosis.judge.events import of_an_input
 from diagnosis.models.build import model_of
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.fit import fit
@@ -77,3 +79,32 @@ def test_ends_that_change_nothing_are_as_good_and_the_interval_holds_them(tmp_pa
         way = 0.15 * STEP * (upper - lower) + 3.0 * STEP
         assert STEP * lower - way < found_end.lower < STEP * lower + 3.0 * STEP
         assert STEP * upper - 3.0 * STEP < found_end.upper < STEP * upper + way
+
+
+def test_an_input_that_stayed_did_so_from_an_instant_at_which_it_was_not_to_move(tmp_path: Path) -> None:
+    """Between two steps of what is stated no reading says when it got stuck; before the first one it had moved."""
+    stated = np.repeat(np.random.default_rng(3).uniform(0.01, 0.03, COUNT // 40), 40)
+    given = stated.copy()
+    stuck, free = 160, 230
+    given[stuck:free] = stated[stuck - 1]
+    tank(tmp_path, "200 s", "500 ms")
+    level = held(lambda h, q: (q - 0.0203 * h) / 0.495, np.array([0.4]), given, STEP)[:, 0]
+    noise = 1e-3 * np.random.default_rng(4).standard_normal(COUNT)
+    columns = {"t": STEP * np.arange(COUNT), "q": stated, "h": level + noise}
+    path = write_recording(
+        tmp_path / "run", columns, {"pump.inflow": ("q", "m^3/s")}, {"tank.level": ("h", "m", "1 mm")}
+    )
+    model = with_faults(model_of(load_scenario(str(tmp_path / "scenario.yaml")), [load_recording(path)], catalogue()))
+    (term,) = [t for t in model.faults() if t.identifier == "input_held_in_interval"]
+    found = fit(model, Point(np.zeros(len(model.parameters)), {term: (1.0, 70.0, 115.0)}), 10)
+    _, begin, end = estimated(model, found, term, 1.0)
+    way = 0.15 * STEP * 40 + 3.0 * STEP
+    assert STEP * (stuck - 40) - way < begin.lower < STEP * (stuck - 40) + 3.0 * STEP
+    assert STEP * stuck - 3.0 * STEP < begin.upper < STEP * stuck + way
+    assert end.lower < STEP * free < end.upper
+    assert end.upper - end.lower < 3.0 * STEP
+    # A derivative that is nearly zero says as little as one that is: an interval as wide as the bounds is none.
+    wide = [replace(e, lower=p.lower, upper=p.upper) for e, p in zip(estimates(found, term), term.parameters)]
+    assert wide[1].upper - wide[1].lower > 190.0
+    told = of_an_input(wide, term, found, model)[1]
+    assert (told.lower, told.upper) == (begin.lower, begin.upper)
