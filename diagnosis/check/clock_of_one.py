@@ -27,9 +27,9 @@ from diagnosis.report.display import instant
 MET = 0.05
 #: How many times more it leaves of the one whose clock is off, and by how many times that clock worsens the others.
 TIMES, WORSE = 4.0, 2.0
-#: Share of the readings that count least for a misfit, those far off left out: at a switch a reading is of one side or
-#: the other, and moves there by a hair.
-COUNTED = 0.95
+#: Shares of the readings that count, least misfits first: at a switch a reading is of one side or the other, and moves
+#: there by a hair. Of what follows its input at once a clock moves readings at switches alone, so that then all count.
+COUNTED = (0.95, 1.0)
 #: How far a clock may be off at either end, as a share of the readings' duration, and most offsets tried at each end.
 LONGEST, MOST_OFFSETS = 0.03, 121
 #: Other recordings that have to be met: of two, either may be the odd one.
@@ -83,10 +83,10 @@ class _Clock:
         """What it leaves of any recording of the channel, SI."""
         return _rest(beside, self.moves(beside))
 
-    def is_beyond(self, one: Compared, beside: Beside, row: float) -> bool:
+    def is_beyond(self, one: Compared, beside: Beside, row: float, counted: float) -> bool:
         """Whether it is farther off than readings and rows of inputs leave open, the latter [s]."""
         within = resolution(one, beside.channel) + row
-        return float(np.abs(self.moves(beside)).max()) > within or _drifts(one, beside, self, within)
+        return float(np.abs(self.moves(beside)).max()) > within or _drifts(one, beside, self, within, counted)
 
     def in_words(self) -> str:
         """What is off."""
@@ -117,11 +117,20 @@ def clocks_of_one(every: Sequence[Compared], simulated: str = AS_IT_IS) -> list[
 
 
 def _of_recording(one: Compared, others: Sequence[Compared], simulated: str) -> Iterator[Doubt]:
-    own = {name: _left(b) for name, b in one.channels.items() if _is_told(b)}
+    told: set[str] = set()
+    for counted in COUNTED:
+        found = [d for d in _by_share(one, others, simulated, counted) if d.subject not in told]
+        told |= {d.subject for d in found}
+        yield from found
+
+
+def _by_share(one: Compared, others: Sequence[Compared], simulated: str, counted: float) -> Iterator[Doubt]:
+    """Doubts by such a share of the readings."""
+    own = {name: _left(b, counted) for name, b in one.channels.items() if _is_told(b)}
     for name, left in own.items():
         beside = one.channels[name]
         same = [o.channels[name] for o in others if name in o.channels and _is_told(o.channels[name])]
-        usual = [_left(b) for b in same]
+        usual = [_left(b, counted) for b in same]
         if len(usual) < OTHERS or max(usual) > MET or left < max(TIMES * max(usual), _noise(beside)):
             continue
         # other channels of the rig that are met say that it is not the rig
@@ -129,25 +138,29 @@ def _of_recording(one: Compared, others: Sequence[Compared], simulated: str) -> 
         largest = max(float(np.ptp(b.simulated_there)) for b in same)
         if not is_alone and float(np.ptp(beside.simulated_there)) > HARDER * largest:
             continue
-        clock = _clock(beside)
-        every = (clock, _jumped(beside, clock), _lag(beside))
+        clock = _clock(beside, counted)
+        every = (clock, _jumped(beside, clock, counted), _lag(beside, counted))
         found = [r for r in every if r is not None and TIMES * r.left <= left and r.left <= MET]
         told_apart = _best(beside, found)
         # rows that were written late move all that follows their input, and not one channel alone
         row = 0.0 if is_alone and len(one.switches()) >= CHANGES else _row(one)
         # what the others do not notice may be theirs too: a number that is off shows most where a run is long
         if not told_apart or not all(
-            r.is_beyond(one, beside, row) and sum(_left_of(b, r.rest(b)) for b in same) >= WORSE * sum(usual)
+            r.is_beyond(one, beside, row, counted)
+            and sum(_left_of(b, r.rest(b), counted) for b in same) >= WORSE * sum(usual)
             for r in told_apart
         ):
             continue
+        counts = f"of the {100.0 * counted:.0f} % of its readings that {simulated} misses least, it"
         told = (
-            f"of the {100.0 * COUNTED:.0f} % of its readings that {simulated} misses least, it explains at "
-            f"least {percent(1.0 - max(usual))} of the variance of {name} in each other recording that shows it and "
+            f"{counts if counted < 1.0 else simulated} explains at least {percent(1.0 - max(usual))} of the variance "
+            f"of {name} in each other recording that shows it and "
             f"{percent(max(1.0 - left, 0.0))} in this one, but {{}}"
         )
         z = float(np.sqrt(left / max(min(r.left for r in told_apart), _noise(beside))))
         kind, text, remedy = _in_words(told_apart)
+        if counted == 1.0:  # what steps with its input tells a time no better than it is read
+            text += f", told by readings {instant(float(np.median(np.diff(beside.times))), 2)} s apart"
         yield Doubt(one.recording.title, name, kind, told.format(text), remedy, True, one.begin, one.end, z)
 
 
@@ -191,7 +204,7 @@ class _Lag:
         """What it leaves of any recording of the channel, SI."""
         return np.asarray(beside.measured - beside.behind(self.lag))
 
-    def is_beyond(self, one: Compared, beside: Beside, row: float) -> bool:
+    def is_beyond(self, one: Compared, beside: Beside, row: float, counted: float) -> bool:
         """Whether it is longer than what is stated and readings and rows of inputs leave open, the latter [s]."""
         return self.lag > beside.channel.lag_bound + resolution(one, beside.channel) + row
 
@@ -222,7 +235,7 @@ class _Jumped:
         """What it leaves of any recording of the channel, SI."""
         return _rest(beside, self.moves(beside))
 
-    def is_beyond(self, one: Compared, beside: Beside, row: float) -> bool:
+    def is_beyond(self, one: Compared, beside: Beside, row: float, counted: float) -> bool:
         """Whether it is farther off than readings and rows of inputs leave open, the latter [s]."""
         return abs(self.jump.size) > resolution(one, beside.channel) + row
 
@@ -235,7 +248,7 @@ class _Jumped:
 _Reason = _Clock | _Jumped | _Lag
 
 
-def _jumped(beside: Beside, clock: _Clock | None) -> _Jumped | None:
+def _jumped(beside: Beside, clock: _Clock | None, counted: float) -> _Jumped | None:
     """The jump that leaves least of a channel; None where no clock is off, or where it is at an end of the readings."""
     if clock is None:
         return None
@@ -251,25 +264,27 @@ def _jumped(beside: Beside, clock: _Clock | None) -> _Jumped | None:
     apart = (end - begin) / (INSTANTS + 1)
     if not begin + apart < found.at < end - apart:
         return None
-    return _Jumped(found, begin, _left(beside, offsets(beside.times, found.size, found.at)))
+    return _Jumped(found, begin, _left(beside, counted, offsets(beside.times, found.size, found.at)))
 
 
-def _lag(beside: Beside) -> _Lag | None:
+def _lag(beside: Beside, counted: float) -> _Lag | None:
     """The first-order lag that leaves least of a channel; None where that is the shortest or the longest tried."""
     longest = LONGEST * float(np.ptp(beside.times))
     tried = [longest * share for share in LAGS]
-    left = [_left_of(beside, beside.measured - beside.behind(lag)) for lag in tried]
+    left = [_left_of(beside, beside.measured - beside.behind(lag), counted) for lag in tried]
     best = int(np.argmin(left))
     if best in (0, len(tried) - 1):
         return None
     ends = float(np.log(tried[best - 1])), float(np.log(tried[best + 1]))
     finer = minimize_scalar(
-        lambda x: _left_of(beside, beside.measured - beside.behind(float(np.exp(x)))), bounds=ends, method="bounded"
+        lambda x: _left_of(beside, beside.measured - beside.behind(float(np.exp(x))), counted),
+        bounds=ends,
+        method="bounded",
     )
     return _Lag(float(np.exp(finer.x)), float(finer.fun))
 
 
-def _drifts(one: Compared, beside: Beside, clock: _Clock, within: float) -> bool:
+def _drifts(one: Compared, beside: Beside, clock: _Clock, within: float, counted: float) -> bool:
     """Whether a clock runs wrong by more than any constant shift explains that is no doubt.
 
     What a reading or a row of an input leaves open is one shift, or another one at each change of the input: a straight
@@ -280,11 +295,12 @@ def _drifts(one: Compared, beside: Beside, clock: _Clock, within: float) -> bool
         beside: Its channel.
         clock: The straight line of offsets.
         within: Shifts up to which are no doubt [s].
+        counted: Share of the readings that count.
     """
     if not clock.is_rate or (_row(one) > 0.0 and len(one.switches()) < CHANGES):
         return False
     shifts = np.linspace(-within, within, SHIFTS)
-    constant = min(_left(beside, np.full(len(beside.times), s)) for s in shifts)
+    constant = min(_left(beside, counted, np.full(len(beside.times), s)) for s in shifts)
     return constant > TIMES * max(clock.left, _noise(beside))
 
 
@@ -303,9 +319,9 @@ def _since(beside: Beside) -> Array:
     return np.asarray(beside.times - beside.times[0])
 
 
-def _left(beside: Beside, offsets: Array | None = None) -> float:
+def _left(beside: Beside, counted: float, offsets: Array | None = None) -> float:
     """Share of a channel's variance that the scenario leaves, with its clock off by so much at each reading."""
-    return _left_of(beside, _rest(beside, offsets))
+    return _left_of(beside, _rest(beside, offsets), counted)
 
 
 def _rest(beside: Beside, offsets: Array | None) -> Array:
@@ -313,9 +329,9 @@ def _rest(beside: Beside, offsets: Array | None) -> Array:
     return np.asarray(beside.measured - beside.at(beside.times if offsets is None else beside.times - offsets))
 
 
-def _left_of(beside: Beside, rest: Array) -> float:
+def _left_of(beside: Beside, rest: Array, counted: float) -> float:
     """Share of a channel's variance that is left, of what some description of its readings leaves."""
-    squares = np.sort(rest**2)[: int(np.ceil(COUNTED * len(rest)))]
+    squares = np.sort(rest**2)[: int(np.ceil(counted * len(rest)))]
     return max(float(np.mean(squares)) - beside.floor**2, 0.0) / float(np.var(beside.measured))
 
 
@@ -324,7 +340,7 @@ def _noise(beside: Beside) -> float:
     return float(beside.floor**2 / np.var(beside.measured))
 
 
-def _clock(beside: Beside) -> _Clock | None:
+def _clock(beside: Beside, counted: float) -> _Clock | None:
     """The straight line of offsets that leaves least; None where that is at an end of what is tried."""
     span, since = float(np.ptp(beside.times)), _since(beside)
     speed = float(np.sqrt(np.mean((np.diff(beside.simulated_there) / np.diff(beside.times)) ** 2)))
@@ -348,5 +364,5 @@ def _clock(beside: Beside) -> _Clock | None:
     spread = np.linalg.pinv(jacobian.T @ jacobian) * scatter
     slope = np.array([-1.0, 1.0]) / span
     deviation = float(np.sqrt(slope @ spread @ slope))
-    left = _left(beside, weights @ fitted.x)
+    left = _left(beside, counted, weights @ fitted.x)
     return _Clock(float(fitted.x.mean()), float(slope @ fitted.x), _QUANTILE * deviation, left, 0.5 * span)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,7 +12,8 @@ import pandas as pd
 import pytest
 import yaml
 
-from cosim.scenario import load_scenario
+from cosim.run import run
+from cosim.scenario import load_scenario, parse_scenario
 from diagnosis import diagnose as asked
 from diagnosis.candidates.registry import catalogue
 from diagnosis.check import clock_of_one
@@ -100,7 +102,7 @@ def test_where_the_best_clock_is_the_stated_one_no_jump_is_looked_for(tmp_path: 
     recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
     beside = _compared(tmp_path, recordings)[1].channels["rig.position"]
     nothing = clock_of_one._Clock(0.0, 0.0, 1e-6, 4.0, 1.0)
-    assert clock_of_one._jumped(beside, nothing) is None
+    assert clock_of_one._jumped(beside, nothing, 1.0) is None
 
 
 def test_of_two_recordings_none_is_named_and_of_good_ones_none(tmp_path: Path) -> None:
@@ -343,3 +345,55 @@ def test_a_lag_is_of_time_and_not_of_readings(tmp_path: Path) -> None:
     behind = uneven.behind(lag)
     expected = uneven.times - lag * (1.0 - np.exp(-uneven.times / lag))
     np.testing.assert_allclose(behind, expected, atol=0.01)
+
+
+def _stepped(tmp_path: Path, late: float) -> list[Compared]:
+    """An ammeter of coils whose voltage steps; readings of the second recording are so much later than it says [s]."""
+    base = yaml.safe_load((Path(__file__).parents[1] / "amend" / "two_by_two.yaml").read_text(encoding="utf-8"))
+    base["time"] |= {"stop": "40 s"}
+    rng, folders = np.random.default_rng(8), []
+    for number in range(3):
+        steps = [[f"{4.0 * n:g} s", f"{v:.2f} V"] for n, v in enumerate(rng.uniform(0.3, 2.5, 10))]
+        own = {"components": {"supply": {"outputs": {"voltage": {"points": steps}}}}}
+        whole = deepcopy(base)
+        whole["components"]["supply"]["outputs"]["voltage"] |= {"points": steps}
+        results = run(parse_scenario(yaml.safe_dump(whole), tmp_path / "scenario.yaml"))
+        times = np.arange(0.15, 39.0, 0.1)
+        seen = np.searchsorted(results["time"].values, times + (late if number == 1 else 0.0))
+        current = 1.03 * results["circuit.string_current"].values[seen, 0]  # a number of the rig is 3 % off
+        current += 1e-3 * rng.standard_normal(len(times))
+        folder = tmp_path / f"run_{number}"
+        folder.mkdir()
+        pd.DataFrame({"t": times, "I": current}).to_csv(folder / "data.csv", index=False)
+        about = {
+            "title": f"run {number}",
+            "table": "data.csv",
+            "time": {"column": "t", "unit": "s", "zero": 0},
+            "overrides": own,
+            "channels": {"string[1].current": {"column": "I", "unit": "A", "noise": "1 mA"}},
+        }
+        (folder / "recording.yaml").write_text(yaml.safe_dump(about), encoding="utf-8")
+        folders.append(folder)
+    (tmp_path / "scenario.yaml").write_text(yaml.safe_dump(base), encoding="utf-8")
+    return _compared(tmp_path, folders)
+
+
+@pytest.mark.usefixtures("_shipped")
+def test_the_clock_of_what_steps_with_its_input_is_told_by_the_readings_at_steps(tmp_path: Path) -> None:
+    """A twentieth of the readings is at the wrong side of a step, and the others do not move."""
+    (doubt,) = clocks_of_one(_stepped(tmp_path, 0.3))
+    assert (doubt.recording, doubt.subject, doubt.kind) == ("run 1", "string[1].current", "clock")
+    told = re.search(r"with a clock that is ([0-9.]+) s behind, told by readings 0.1 s apart$", doubt.statement)
+    assert told is not None, doubt.statement
+    assert float(told[1]) == pytest.approx(0.3, abs=0.1)
+
+
+@pytest.mark.usefixtures("_shipped")
+@pytest.mark.parametrize("late", [0.0, 0.05])
+def test_a_clock_within_the_distance_of_readings_is_no_doubt(late: float, tmp_path: Path) -> None:
+    assert clocks_of_one(_stepped(tmp_path, late)) == []
+
+
+@pytest.fixture
+def _shipped(shipped_fmus: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COSIM_FMU_PATH", str(shipped_fmus))
