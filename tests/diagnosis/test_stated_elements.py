@@ -11,6 +11,8 @@ import yaml
 from cosim.components import CircuitComponent
 from cosim.run import run
 from cosim.scenario import load_scenario, parse_scenario
+from diagnosis.amend.changes import FittedTerm
+from diagnosis.amend.circuit_elements import circuit_elements
 from diagnosis.candidates.registry import candidate, catalogue
 from diagnosis.models.build import model_of
 from diagnosis.models.coil_network.kernel.network import CoilNetwork
@@ -113,3 +115,20 @@ def test_a_rig_with_a_stated_limit_is_simulated_fast_and_agrees_with_its_recordi
     assert not any("stated" in t.identifier for t in model.terms())
     base = Point(np.zeros(len(model.parameters)))
     assert np.isfinite(model.residuals([base.plus(t, [p.starts[0] for p in t.parameters]) for t in limits])).all()
+
+
+@pytest.mark.parametrize(
+    "element",
+    [
+        LIMIT | {"share": 0.7},
+        {"kind": "contact", "string": 1, "resistance": "2 ohm", "instant": "5 s"},
+        {"kind": "lead", "string": 2, "rise": "3 ohm/A^2"},
+        {"kind": "drop", "string": 2, "voltage": "0.4 V"},
+        {"kind": "slow_source", "supply": 2, "delay": "2 s"},
+    ],
+)
+def test_an_element_is_the_law_that_is_amended_by_it(element):
+    """What the search finds is written as an element, and read again as what was found."""
+    ((law, values),) = stated_terms(circuit(element), start=0.0).items()
+    found = FittedTerm(candidate(law.removeprefix("stated_")), {n: np.asarray(v) for n, v in values.items()})
+    assert circuit_elements([found]) == [element]
