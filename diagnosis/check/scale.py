@@ -193,11 +193,16 @@ def _sign_doubts(compared: Compared, beside: Beside) -> list[Doubt]:
         f"variance, as it is {percent(same.share)}"
     )
     remedy = "is the sensor or the column of opposite sign? Correct the table, or the scenario's direction"
+    kind = "sign"
+    if not len(compared.switches()):
+        kind = "turned"
+        text += "; nothing drives it: a start on the other side does that too, or a clock that is off by half a swing"
+        remedy = "is the sensor or the column of opposite sign, does it begin on the other side, or is its clock off?"
     return [
         Doubt(
             compared.recording.title,
             beside.channel.name,
-            "sign",
+            kind,
             text,
             remedy,
             True,

@@ -23,6 +23,7 @@ _OF_ANOTHER = "The recording and the scenario are not of the same experiment"
 _LESS = (
     ({"swapped"}, "Channels are exchanged"),
     ({"unit", "sign"}, "A column is not what its recording says"),
+    ({"turned"}, "Sign, start or clock of a recording are not what it says"),
     ({"no answer"}, "Readings show no answer to the inputs of the scenario"),
     ({"start"}, "The first readings of a recording are not where it is said to begin"),
     ({"clock", "dead time"}, "Times of the recording are not those of the scenario"),
@@ -192,7 +193,7 @@ def _once(alike: Sequence[Doubt]) -> str:
     others = len({d.recording for d in alike} - {alike[0].recording})
     which = "1 more recording raises" if others == 1 else f"{others} more recordings raise"
     more = f" ({which} a doubt of this kind)" if others else ""
-    channel = f"{alike[0].subject}: " if alike[0].kind in ("unit", "sign", "start") else ""
+    channel = f"{alike[0].subject}: " if alike[0].kind in ("unit", "sign", "turned", "start") else ""
     return f"in {clean(alike[0].recording)}, {channel}{alike[0].statement.rstrip('.')}{more}"
 
 

@@ -24,17 +24,17 @@ LEAST_GAIN = 12.0
 LEAST_PROBABLE = 0.01
 #: Sabotage to the kinds of doubt (`Doubt.kind`) that tell it; a sabotage that is not here may be told by any.
 _DOUBTS: Mapping[str, frozenset[str]] = {
-    "wrong_programme": frozenset({"programme", "no answer", "other run", "input", "dead time", "start"}),
+    "wrong_programme": frozenset({"programme", "no answer", "other run", "input", "dead time", "start", "turned"}),
     "other_run_input": frozenset({"programme", "other run", "input", "dead time"}),
     "input_offset": frozenset({"input", "programme", "scale"}),
     "unequal_rooms": frozenset({"start", "input", "programme"}),
-    "wrong_start": frozenset({"start", "programme"}),
+    "wrong_start": frozenset({"start", "programme", "turned"}),
     "other_supply": frozenset({"swapped", "programme", "other run", "input"}),
     "delay_line": frozenset({"dead time", "clock", "programme", "input"}),
     "swapped_columns": frozenset({"swapped", "unit", "scale", "sign", "sensor"}),
     "swapped_coils": frozenset({"swapped", "programme"}),
     "wrong_unit": frozenset({"unit", "scale", "clock"}),
-    "shifted_clock": frozenset({"clock", "dead time", "programme", "start"}),
+    "shifted_clock": frozenset({"clock", "dead time", "programme", "start", "turned"}),
     "drifting_clock": frozenset({"clock", "dead time", "programme"}),
     "sensor_off": frozenset({"sensor", "noise"}),
     "sensor_stuck": frozenset({"sensor", "noise"}),

@@ -30,7 +30,7 @@ from evaluation.strangers.truth import FINE
 RIGHT = {
     "unit": ("unit", "scale"),
     "gain": ("unit", "scale"),
-    "sign": ("sign", "unit", "scale"),
+    "sign": ("sign", "turned", "unit", "scale"),
     "swapped": ("swapped",),
     "clock": ("clock", "dead time"),
     "sensor": ("sensor", "range", "noise"),
