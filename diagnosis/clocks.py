@@ -37,9 +37,17 @@ def clocks_once_recalibrated(
     """
     if len(compared) <= OTHERS or not model.can_be_searched_again or not model.parameters:
         return []
-    found = clocks_of_one(_compared(recalibrate(model).point, model, judge, compared), RECALIBRATED)
+    point = recalibrate(model).point
+    found = clocks_of_one(_compared(point, model, judge, compared), RECALIBRATED)
     by_others = {title: _by_others(title, model, judge, compared) for title in {told.recording for told in found}}
-    return [by_others[told.recording].get(told.subject, told) for told in found]
+    found = [by_others[told.recording].get(told.subject, told) for told in found]
+    if judge is None or len(model.runs) == 1:
+        return found
+    fitted = {one.recording.title for one in compared[: len(model.runs)]}
+    if all(told.recording in fitted for told in found):
+        return found
+    alike = {(d.recording, d.subject) for d in clocks_of_one(_foreseen(point, model, judge, compared), RECALIBRATED)}
+    return [told for told in found if told.recording in fitted or (told.recording, told.subject) in alike]
 
 
 def _by_others(
@@ -59,11 +67,36 @@ def _by_others(
     titles = [one.recording.title for one in compared[: len(model.runs)]]
     if titles.count(title) != 1 or len(titles) == 1:
         return {}
+    point = _fitted_to_others(model, titles.index(title))
+    again = clocks_of_one(_compared(point, model, judge, compared), RECALIBRATED)
+    return {told.subject: told for told in again if told.recording == title}
+
+
+def _foreseen(
+    point: Point, model: DiagnosisModel, judge: DiagnosisModel, compared: Sequence[Compared]
+) -> list[Compared]:
+    """Each recording beside what numbers predict of it that were not fitted to it.
+
+    What no number of the model can do is spread over the recordings that are fitted, and shows in one that is held out:
+    beside fitted ones that one alone seems to be off.
+
+    Args:
+        point: Fitted to all of the training.
+        model: Of the training recordings, two at least.
+        judge: Of those held out.
+        compared: Recordings beside the scenario as it is.
+    """
+    every = _compared(point, model, judge, compared)
+    for number in range(len(model.runs)):
+        every[number] = _beside(compared[number], model, _fitted_to_others(model, number), number)
+    return every
+
+
+def _fitted_to_others(model: DiagnosisModel, number: int) -> Point:
+    """Numbers that are fitted to the training recordings but one."""
     sizes = [sum(len(s.samples) for s in run.series) for run in model.runs]
     owners = np.repeat(np.arange(len(sizes)), sizes)
-    others = MaskedModel(model, owners != titles.index(title))
-    again = clocks_of_one(_compared(recalibrate(others).point, model, judge, compared), RECALIBRATED)
-    return {told.subject: told for told in again if told.recording == title}
+    return recalibrate(MaskedModel(model, owners != number)).point
 
 
 def _compared(

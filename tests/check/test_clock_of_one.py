@@ -242,6 +242,28 @@ def test_numbers_that_are_off_hide_no_clock(order: tuple[int, ...], tmp_path: Pa
     assert low <= 0.6 <= high
 
 
+def test_a_held_out_recording_stands_beside_recordings_that_were_not_fitted_either(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A law that is missing is spread over the recordings that are fitted, and not over the one that is held out."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: -24.0 * x - 60.0 * x**3, (0.5, 0.45, 0.48))
+    left: list[dict[str, float]] = []
+
+    def asked(every: list[Compared], simulated: str) -> list[Doubt]:
+        channels = {one.recording.title: one.channels["rig.position"] for one in every}
+        left.append({title: float(np.mean((b.measured - b.simulated_there) ** 2)) for title, b in channels.items()})
+        doubt = Doubt("run_3", "rig.position", "clock", "runs fast", "set it", True, 0.0, 4.0, 9.0)
+        return [doubt] if len(left) == 1 else []
+
+    monkeypatch.setattr("diagnosis.clocks.clocks_of_one", asked)
+    assert _once_recalibrated(tmp_path, recordings) == []
+    fitted, foreseen = left[0], left[-1]
+    assert foreseen["run_3"] == fitted["run_3"]
+    assert foreseen["run_1"] > 1.2 * fitted["run_1"]
+    assert foreseen["run_2"] > 1.2 * fitted["run_2"]
+
+
 @pytest.mark.parametrize("fast", [0.02, -0.015])
 def test_a_clock_that_bends_the_fitted_numbers_is_told_by_those_of_the_others(fast: float, tmp_path: Path) -> None:
     """Fitted to both recordings the spring takes a part of the clock: its interval would not hold the true rate."""
