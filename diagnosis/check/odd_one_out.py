@@ -18,6 +18,7 @@ from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.judge.doubts import ODD
+from diagnosis.report.display import instant
 
 #: Share of their variance that the scenario explains of the others, all numbers as they are.
 MET = 0.95
@@ -31,6 +32,9 @@ HALF = 0.5
 ALIKE, SAME = 2.0, 1e-3
 #: Share of the range of the others by which a recording may go beyond it, and how much faster it may change.
 BEYOND, FASTER = 0.5, 2.0
+#: Shares of a recording of which the first part is asked whether it is explained, the longest first: an experiment
+#: that is another one is so from its begin. So many readings, and so much of the others' variance, a part has at least.
+PARTS, FEWEST_READINGS, MOVED = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2), 24, 0.1
 #: Other recordings that have to be met: one alone may be the odd one itself.
 OTHERS = 2
 
@@ -76,11 +80,66 @@ def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
             "a wrong number shows in all of them, and so does a missing law unless only this one reaches where it "
             "acts: look at this recording's input, start and day first"
         )
-        is_alike = is_as_it_is or is_within(one, [o for i, o in enumerate(every) if i != number])
+        rest = [o for i, o in enumerate(every) if i != number]
+        is_alike = is_as_it_is or is_within(one, rest)
         is_serious = is_alike and worst.scaled >= HALF
+        until = _met_until(one, rest, is_as_it_is) if is_serious else None
+        if until is not None:
+            text += f"; until {instant(until, 3)} s it does not stand out"
+            remedy = (
+                "what happened after that, to the rig, a sensor or an input? The search looks for events and for "
+                "faults of a while"
+            )
+            is_serious = False
         title = one.recording.title
         found.append(Doubt(title, "all channels", ODD, text, remedy, is_serious, one.begin, one.end, z))
     return found
+
+
+def _met_until(one: Compared, others: Sequence[Compared], is_as_it_is: bool) -> float | None:
+    """Until when a recording that stands out does not [s]; None where it does from its begin.
+
+    Args:
+        one: The recording.
+        others: Those that are met.
+        is_as_it_is: Whether by the scenario as it is, or scaled and shifted as suits one of the others.
+    """
+    channels = comparable(one)
+    same = {name: [o.channels[name] for o in others if name in comparable(o)] for name in channels}
+    if not all(same.values()):
+        return None
+    lines = {name: [(1.0, 0.0)] if is_as_it_is else [_line(b) for b in there] for name, there in same.items()}
+    usual = max(min(_part_left(b, x) for x in lines[name]) for name, there in same.items() for b in there)
+    for share in PARTS:
+        end = one.begin + share * (one.end - one.begin)
+        moving = [name for name, beside in channels.items() if _moves(beside, same[name], end)]
+        if not moving:
+            return None
+        left_there = max(min(_part_left(channels[name], x, end) for x in lines[name]) for name in moving)
+        if left_there < max(TIMES * usual, LEAST):
+            return float(end)
+    return None
+
+
+def _line(beside: Beside) -> tuple[float, float]:
+    """Slope and offset from the simulation to the readings of a recording."""
+    slope, offset = np.polyfit(beside.simulated_there, beside.measured, 1)
+    return float(slope), float(offset)
+
+
+def _moves(beside: Beside, same: Sequence[Beside], end: float) -> bool:
+    """Whether a channel moves enough until then that what is left of it says something."""
+    part = beside.measured[beside.times <= end]
+    least = MOVED * max(float(np.var(b.measured)) for b in same)
+    return len(part) >= FEWEST_READINGS and float(np.var(part)) >= least
+
+
+def _part_left(beside: Beside, line: tuple[float, float], end: float = math.inf) -> float:
+    """Share of the variance of the readings until then that is left by a line in the simulation."""
+    part = beside.times <= end
+    measured, simulated = beside.measured[part], beside.simulated_there[part]
+    rest = float(np.mean((measured - line[0] * simulated - line[1]) ** 2)) - beside.floor**2
+    return max(rest, 0.0) / float(np.var(measured))
 
 
 def _told(own: Sequence[_Left], others: Sequence[Sequence[_Left]]) -> tuple[str, bool, float] | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -101,3 +102,22 @@ def test_a_recording_in_which_little_moves_is_no_odd_one(tmp_path: Path) -> None
         table[name] *= 0.1
     table.to_csv(recordings[1] / "data.csv", index=False)
     assert [d for d in _doubts(tmp_path, recordings) if d.is_serious] == []
+
+
+@pytest.mark.parametrize("factor", [1.0, 1.4], ids=["as it is", "numbers are off in all"])
+def test_a_recording_that_is_met_at_first_is_of_this_experiment(tmp_path: Path, factor: float) -> None:
+    """From half of it on the rig does what the stated input does not make it do: something happened there."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0)
+    tables = [pd.read_csv(r / "data.csv") for r in recordings]
+    half = COUNT // 2
+    tables[1].loc[half:, "x"] = -tables[2]["x"][half:]
+    for recording, table in zip(recordings, tables):
+        table["x"] *= factor
+        table.to_csv(recording / "data.csv", index=False)
+    (told,) = _doubts(tmp_path, recordings)
+    assert (told.recording, told.is_serious) == ("run_2", False)
+    until = re.search(r"; until ([\d.]+) s it does not stand out$", told.statement)
+    assert until is not None, told.statement
+    times = tables[1]["t"].to_numpy()
+    assert times[0] + 0.3 * (times[-1] - times[0]) < float(until[1]) <= times[half] + 0.11 * (times[-1] - times[0])
