@@ -3,8 +3,9 @@
 A number that is off or a law that is missing may move a response in time, but it does so in every recording. Where
 the scenario meets a channel in the other recordings and, by a straight line from its clock to that of the scenario,
 in this one too, its clock is off. A resonance that moves with its amplitude does the same to all channels of a
-recording that is driven harder than the others: none such is reported. A sensor that answers more slowly in one
-recording makes its readings late as well: what explains more of them is reported, or both.
+recording that is driven harder than the others, or that moves freely by another size: none such is reported. A sensor
+that answers more slowly in one recording makes its readings late as well: what explains more of them is reported, or
+both.
 """
 
 from __future__ import annotations
@@ -135,8 +136,11 @@ def _by_share(one: Compared, others: Sequence[Compared], simulated: str, counted
             continue
         # other channels of the rig that are met say that it is not the rig
         is_alone = any(n != name and v <= MET for n, v in own.items())
-        largest = max(float(np.ptp(b.simulated_there)) for b in same)
-        if not is_alone and float(np.ptp(beside.simulated_there)) > HARDER * largest:
+        ranges = [float(np.ptp(b.simulated_there)) / float(np.ptp(beside.simulated_there)) for b in same]
+        if not is_alone and max(ranges) < 1.0 / HARDER:
+            continue
+        # how fast a motion is that nothing drives is told by its size, and so is what a missing law does to it
+        if not is_alone and not len(one.switches()) and not any(1.0 / HARDER <= r <= HARDER for r in ranges):
             continue
         clock = _clock(beside, counted)
         every = (clock, _jumped(beside, clock, counted), _lag(beside, counted))

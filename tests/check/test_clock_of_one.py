@@ -242,6 +242,19 @@ def test_numbers_that_are_off_hide_no_clock(order: tuple[int, ...], tmp_path: Pa
     assert low <= 0.6 <= high
 
 
+def test_what_moves_freely_has_a_clock_beside_motions_of_its_size_alone(tmp_path: Path) -> None:
+    """A tilt or a spring that is not linear makes each size of a free swing faster or slower by another share."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
+    (own,) = _compared(tmp_path, recordings[1:2])
+    _own_table(recordings[1], 0.02, 0.0)
+    free = [replace(one, courses=()) for one in _compared(tmp_path, recordings)]
+    assert clocks_of_one(free) == []
+    titles = [replace(own, courses=(), recording=replace(own.recording, title=title)) for title in ("a", "b")]
+    (told,) = clocks_of_one([*titles, free[1]])
+    assert (told.recording, told.kind) == ("run_2", "clock")
+
+
 def test_a_held_out_recording_stands_beside_recordings_that_were_not_fitted_either(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
