@@ -137,9 +137,7 @@ def _moves(beside: Beside, same: Sequence[Beside], end: float) -> bool:
 def _part_left(beside: Beside, line: tuple[float, float], end: float = math.inf) -> float:
     """Share of the variance of the readings until then that is left by a line in the simulation."""
     part = beside.times <= end
-    measured, simulated = beside.measured[part], beside.simulated_there[part]
-    rest = float(np.mean((measured - line[0] * simulated - line[1]) ** 2)) - beside.floor**2
-    return max(rest, 0.0) / float(np.var(measured))
+    return _share(beside.measured[part], line[0] * beside.simulated_there[part] + line[1], beside.floor)
 
 
 def _told(own: Sequence[_Left], others: Sequence[Sequence[_Left]]) -> tuple[str, bool, float] | None:
@@ -216,8 +214,13 @@ def left(beside: Beside, simulated: Array) -> float:
     runs away."""
     if not np.isfinite(simulated).all():
         return math.inf
-    rest = float(np.mean((beside.measured - simulated) ** 2)) - beside.floor**2
-    return max(rest, 0.0) / float(np.var(beside.measured))
+    return _share(beside.measured, simulated, beside.floor)
+
+
+def _share(measured: Array, predicted: Array, floor: float) -> float:
+    """Share of the variance of readings that a prediction leaves, beyond what says nothing."""
+    rest = float(np.mean((measured - predicted) ** 2)) - floor**2
+    return max(rest, 0.0) / float(np.var(measured))
 
 
 def scaled_left(beside: Beside, simulated: Array) -> float:

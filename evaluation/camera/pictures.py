@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from chainmail.camera.lens import Calibration, calibrate, pictures_in
+from chainmail.camera.lens import calibrate, pictures_in
 from chainmail.camera.measure import measure
 from chainmail.camera.rig import load_rig
 from chainmail.camera.tracks import GAP, Tracks
@@ -112,11 +112,6 @@ def track_targets(folder: Path, out: Path, every: int) -> Tracks:
     return measure(frames, load_rig(rig_file), rig_file).tracks
 
 
-def of_boards(files: list[Path]) -> Calibration:
-    """The lens of one camera."""
-    return calibrate(files, CORNERS, "--boards")
-
-
 def main() -> None:
     """Print a table."""
     parser = argparse.ArgumentParser(prog="python -m evaluation.camera.pictures", description=__doc__)
@@ -127,7 +122,7 @@ def main() -> None:
     given = parser.parse_args()
     print("| pictures | what | reached |\n|---|---|---|")
     for side in ("left", "right"):
-        found = of_boards(pictures_in(given.boards, "--boards", f"{side}*"))
+        found = calibrate(pictures_in(given.boards, "--boards", f"{side}*"), CORNERS, "--boards")
         print(f"| boards, {side} | reprojection error | {found.error:.3f} px, {found.used} of {found.given} pictures |")
     tracks = track_targets(given.targets / "img", given.out, given.every)
     still, moving = kinds_of(tracks)
