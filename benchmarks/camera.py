@@ -36,9 +36,10 @@ CASES: dict[str, dict[str, Any]] = {
     "markers of 4 mm": {"diameter": "4 mm"},
 }
 BASE = {"rate": "30 Hz", "exposure": "8 ms", "begin": "0 s", "end": "20 s"}
-#: Where the camera looks at [mm], and by how much at most it is drawn from there for further placements: a block of a
-#: compressed picture is 8 pixels, and a fabric that stands still has the same error of compression in all frames.
-CENTRE, AWAY = (72.0, -10.0), 2.0
+#: By how much at most further placements of the camera look elsewhere [mm]. A block of a compressed picture has eight
+#: pixels,
+#: and a fabric that stands still has the same error of compression in all frames.
+AWAY = 2.0
 #: A fabric is hot where its largest curvature is below this [1/m].
 HOT = 3.0
 
@@ -102,7 +103,9 @@ def _placed(spec: dict[str, Any], placement: int) -> dict[str, Any]:
     """The camera of a case, from the second placement on moved by less than a block of the picture."""
     if placement == 0:
         return {**BASE, **spec}
-    moved = np.array(CENTRE) + np.random.default_rng(placement).uniform(-AWAY, AWAY, 2)
+    moved = np.array([c.to("mm") for c in CameraFile().centre]) + np.random.default_rng(placement).uniform(
+        -AWAY, AWAY, 2
+    )
     return {**BASE, **spec, "centre": [f"{float(m):.3f} mm" for m in moved]}
 
 

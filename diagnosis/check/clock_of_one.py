@@ -60,6 +60,7 @@ class _Clock:
         spread: 95 % of the rate are within so much of it, 1.
         left: Share of the variance that the scenario leaves of the channel then.
         half: Half of the time from the first reading to the last [s].
+        counted: Share of the readings that count for what is left.
     """
 
     offset: float
@@ -67,6 +68,7 @@ class _Clock:
     spread: float
     left: float
     half: float
+    counted: float
 
     @property
     def is_rate(self) -> bool:
@@ -84,10 +86,10 @@ class _Clock:
         """What it leaves of any recording of the channel, SI."""
         return _rest(beside, self.moves(beside))
 
-    def is_beyond(self, one: Compared, beside: Beside, row: float, counted: float) -> bool:
+    def is_beyond(self, one: Compared, beside: Beside, row: float) -> bool:
         """Whether it is farther off than readings and rows of inputs leave open, the latter [s]."""
         within = resolution(one, beside.channel) + row
-        return float(np.abs(self.moves(beside)).max()) > within or _drifts(one, beside, self, within, counted)
+        return float(np.abs(self.moves(beside)).max()) > within or _drifts(one, beside, self, within)
 
     def in_words(self) -> str:
         """What is off."""
@@ -139,7 +141,7 @@ def _by_share(one: Compared, others: Sequence[Compared], simulated: str, counted
         ranges = [float(np.ptp(b.simulated_there)) / float(np.ptp(beside.simulated_there)) for b in same]
         if not is_alone and max(ranges) < 1.0 / HARDER:
             continue
-        # how fast a motion is that nothing drives is told by its size, and so is what a missing law does to it
+        # how fast a motion is that nothing drives depends on its size, and so does what a missing law does to it
         if not is_alone and not len(one.switches()) and not any(1.0 / HARDER <= r <= HARDER for r in ranges):
             continue
         clock = _clock(beside, counted)
@@ -150,8 +152,7 @@ def _by_share(one: Compared, others: Sequence[Compared], simulated: str, counted
         row = 0.0 if is_alone and len(one.switches()) >= CHANGES else _row(one)
         # what the others do not notice may be theirs too: a number that is off shows most where a run is long
         if not told_apart or not all(
-            r.is_beyond(one, beside, row, counted)
-            and sum(_left_of(b, r.rest(b), counted) for b in same) >= WORSE * sum(usual)
+            r.is_beyond(one, beside, row) and sum(_left_of(b, r.rest(b), counted) for b in same) >= WORSE * sum(usual)
             for r in told_apart
         ):
             continue
@@ -208,7 +209,7 @@ class _Lag:
         """What it leaves of any recording of the channel, SI."""
         return np.asarray(beside.measured - beside.behind(self.lag))
 
-    def is_beyond(self, one: Compared, beside: Beside, row: float, counted: float) -> bool:
+    def is_beyond(self, one: Compared, beside: Beside, row: float) -> bool:
         """Whether it is longer than what is stated and readings and rows of inputs leave open, the latter [s]."""
         return self.lag > beside.channel.lag_bound + resolution(one, beside.channel) + row
 
@@ -239,7 +240,7 @@ class _Jumped:
         """What it leaves of any recording of the channel, SI."""
         return _rest(beside, self.moves(beside))
 
-    def is_beyond(self, one: Compared, beside: Beside, row: float, counted: float) -> bool:
+    def is_beyond(self, one: Compared, beside: Beside, row: float) -> bool:
         """Whether it is farther off than readings and rows of inputs leave open, the latter [s]."""
         return abs(self.jump.size) > resolution(one, beside.channel) + row
 
@@ -288,7 +289,7 @@ def _lag(beside: Beside, counted: float) -> _Lag | None:
     return _Lag(float(np.exp(finer.x)), float(finer.fun))
 
 
-def _drifts(one: Compared, beside: Beside, clock: _Clock, within: float, counted: float) -> bool:
+def _drifts(one: Compared, beside: Beside, clock: _Clock, within: float) -> bool:
     """Whether a clock runs wrong by more than any constant shift explains that is no doubt.
 
     What a reading or a row of an input leaves open is one shift, or another one at each change of the input: a straight
@@ -299,12 +300,11 @@ def _drifts(one: Compared, beside: Beside, clock: _Clock, within: float, counted
         beside: Its channel.
         clock: The straight line of offsets.
         within: Shifts up to which are no doubt [s].
-        counted: Share of the readings that count.
     """
     if not clock.is_rate or (_row(one) > 0.0 and len(one.switches()) < CHANGES):
         return False
     shifts = np.linspace(-within, within, SHIFTS)
-    constant = min(_left(beside, counted, np.full(len(beside.times), s)) for s in shifts)
+    constant = min(_left(beside, clock.counted, np.full(len(beside.times), s)) for s in shifts)
     return constant > TIMES * max(clock.left, _noise(beside))
 
 
@@ -369,4 +369,4 @@ def _clock(beside: Beside, counted: float) -> _Clock | None:
     slope = np.array([-1.0, 1.0]) / span
     deviation = float(np.sqrt(slope @ spread @ slope))
     left = _left(beside, counted, weights @ fitted.x)
-    return _Clock(float(fitted.x.mean()), float(slope @ fitted.x), _QUANTILE * deviation, left, 0.5 * span)
+    return _Clock(float(fitted.x.mean()), float(slope @ fitted.x), _QUANTILE * deviation, left, 0.5 * span, counted)

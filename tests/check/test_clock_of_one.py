@@ -101,7 +101,7 @@ def test_where_the_best_clock_is_the_stated_one_no_jump_is_looked_for(tmp_path: 
     oscillator(tmp_path)
     recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
     beside = _compared(tmp_path, recordings)[1].channels["rig.position"]
-    nothing = clock_of_one._Clock(0.0, 0.0, 1e-6, 4.0, 1.0)
+    nothing = clock_of_one._Clock(0.0, 0.0, 1e-6, 4.0, 1.0, 1.0)
     assert clock_of_one._jumped(beside, nothing, 1.0) is None
 
 
