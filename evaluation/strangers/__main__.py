@@ -43,6 +43,7 @@ from evaluation.strangers import (
     twenty_first_set,
     twenty_fourth_set,
     twenty_second_set,
+    twenty_seventh_set,
     twenty_sixth_set,
     twenty_third_set,
 )
@@ -76,6 +77,7 @@ SETS = {
     "twenty_fourth": twenty_fourth_set.CASES,
     "twenty_fifth": twenty_fifth_set.CASES,
     "twenty_sixth": twenty_sixth_set.CASES,
+    "twenty_seventh": twenty_seventh_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
