@@ -24,13 +24,14 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kind", default="", choices=["", *KINDS], help="this kind alone")
     parser.add_argument("--rig", default="heated", choices=list(RIGS), help="which fabric (default: heated)")
+    parser.add_argument("--visible", type=float, default=0.0, help="effects move the markers by at least this [mm]")
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--limit", type=float, default=3600.0, help="longest time of one diagnosis [s]")
     parser.add_argument("--so-far", action="store_true", help="score what is done")
     given = parser.parse_args(arguments)
     names = [f"fabric_{n + 1:03d}" for n in range(given.cases)]
     if not given.so_far:
-        write_cases(given.out, given.cases, given.seed, given.kind, given.rig)
+        write_cases(given.out, given.cases, given.seed, given.kind, given.rig, 1e-3 * given.visible)
         for number, name in enumerate(names):
             if not (given.out / "diagnoses" / name / "done.json").is_file():
                 _diagnose(given.out / "cases" / name, given.out / "diagnoses" / name, given.limit)

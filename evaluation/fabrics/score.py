@@ -96,16 +96,20 @@ def page(scores: Sequence[Mapping[str, Any]], seed: int, cases: int) -> str:
         f"| nothing acts and nothing is missing by the answer | {sum(s['verdict'] in AGREES for s in nulls)} of "
         f"{len(nulls)} |",
         "",
-        "| case | truth | verdict | said | false | held-out chi-square: before, recalibrated, after | wall time [s] |",
-        "|---" * 7 + "|",
+        "| case | truth | verdict | said | false | moves markers by [mm] "
+        "| held-out chi-square: before, recalibrated, after | wall time [s] |",
+        "|---" * 8 + "|",
     ]
     for s in scores:
         where = f", link {s['link']}" if s.get("link") else f", row {s['row']}" if s.get("row") else ""
         truth = f"{s['effect']} {s['strength']:.3g}{where}" if s["effect"] else "nothing"
+        moves = "-" if s.get("moves_mm") is None else f"{s['moves_mm']:.2f}"
         if s["failed"]:
-            lines.append(f"| {s['case']} | {truth} | no answer | | | | {s['seconds']:.0f} |")
+            lines.append(f"| {s['case']} | {truth} | no answer | | | {moves} | | {s['seconds']:.0f} |")
             continue
         chi = ", ".join("-" if c is None else f"{c:.2f}" for c in s["chi"])
         said, false = "; ".join(s["said"]) or "-", ", ".join(s["false"]) or "-"
-        lines.append(f"| {s['case']} | {truth} | {s['verdict']} | {said} | {false} | {chi} | {s['seconds']:.0f} |")
+        lines.append(
+            f"| {s['case']} | {truth} | {s['verdict']} | {said} | {false} | {moves} | {chi} | {s['seconds']:.0f} |"
+        )
     return "\n".join(lines) + "\n"

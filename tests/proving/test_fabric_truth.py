@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from evaluation.fabrics.__main__ import main as diagnose_draw
 from evaluation.fabrics.score import page, score
+from evaluation.proving.fabric import case as case_module
 from evaluation.proving.fabric import truth
-from evaluation.proving.fabric.case import FabricCase, drawn_case, write_cases
+from evaluation.proving.fabric.case import RIGS, FabricCase, drawn_case, write_cases
 from evaluation.proving.fabric.truth import COLUMNS, HELD, ROWS, Specimen, drape
 from evaluation.proving.fabric.weave import Measures, weave
 from mechanics.fabric import layout
@@ -77,6 +79,35 @@ def test_a_draw_repeats_and_says_nothing_of_its_answer(tmp_path):
     answer = json.loads((tmp_path / "answers" / f"{name}.json").read_text())
     text = "".join(p.read_text() for p in (tmp_path / "cases").rglob("*") if p.is_file())
     assert answer["effect"] not in text
+
+
+@pytest.fixture
+def one_effect(monkeypatch):
+    """A rig whose one effect of all links is a payload, from one start."""
+    monkeypatch.setattr(case_module, "STARTS", 1)
+
+    def with_range(low, high):
+        rig = replace(RIGS["drape"], stop=0.08, spread={"payload": (low, high, False)})
+        monkeypatch.setitem(RIGS, "drape", rig)
+
+    return with_range
+
+
+def test_an_effect_that_hardly_moves_the_markers_is_drawn_again(one_effect):
+    one_effect(1e-6, 0.1)
+    rng = np.random.default_rng(2)
+    case = drawn_case("a", rng, "global", "drape", 2e-4)
+    assert case.moves >= 2e-4
+    assert case.strength > 0.01
+    assert np.isnan(drawn_case("a", rng, "global", "drape").moves)
+    assert drawn_case("a", rng, "null", "drape", 2e-4).effect == ""  # nothing moves nothing, and is not drawn again
+
+
+def test_a_draw_ends_where_no_effect_moves_the_markers(one_effect, monkeypatch):
+    one_effect(1e-6, 2e-6)
+    monkeypatch.setattr(case_module, "TRIES", 2)
+    with pytest.raises(ValueError, match="none of 2 effects that were drawn moves the markers of drape by 5 mm"):
+        drawn_case("a", np.random.default_rng(2), "global", "drape", 5e-3)
 
 
 def told(tmp_path, truth, findings, code=0):

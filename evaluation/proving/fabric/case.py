@@ -23,6 +23,10 @@ _SCENARIOS = Path(__file__).resolve().parents[1] / "scenarios"
 INTERVAL, NOISE = 0.04, 3e-4
 #: Share of readings that are lost behind a link.
 LOST = 0.03
+#: Starts of which each mean is taken, where it is asked what an effect moves.
+STARTS = 2
+#: Most effects that are drawn for one that shows.
+TRIES = 40
 #: Deviation of what is never quite as the scenario says: masses, springs and friction, as shares.
 OFF = {"mass": 0.01, "steel": 0.02, "friction": 0.03, "coil": 0.01}
 
@@ -106,6 +110,8 @@ RIGS = {
 }
 #: Kind to its share.
 KINDS = {"null": 0.35, "global": 0.4, "local": 0.15, "camera": 0.1}
+#: Those whose effects move links.
+MOVING = ("global", "local")
 
 
 @dataclass(frozen=True)
@@ -119,6 +125,8 @@ class FabricCase:
         strength: In SI; of an exchange 1.
         specimen: The fabric with its effect.
         rig: One of `RIGS`.
+        moves: What the effect moves the markers by, root mean square over markers and pictures, means of `STARTS`
+            starts with and without it [m]; nan: it was not asked.
     """
 
     identifier: str
@@ -127,6 +135,7 @@ class FabricCase:
     strength: float
     specimen: Specimen
     rig: str = "drape"
+    moves: float = math.nan
 
     def write(self, cases: Path, answers: Path, rng: np.random.Generator) -> None:
         """Make the recordings and write them, the task and the answer.
@@ -146,6 +155,7 @@ class FabricCase:
         answers.mkdir(parents=True, exist_ok=True)
         answer = {"case": self.identifier, "kind": self.kind, "effect": self.effect, "strength": self.strength}
         answer |= {"link": self.specimen.at_link + 1, "row": self.specimen.at_row + 1}
+        answer["moves_mm"] = None if math.isnan(self.moves) else round(1e3 * self.moves, 3)
         (answers / f"{self.identifier}.json").write_text(json.dumps(answer, indent=1) + "\n")
 
     def _seen(self, markers: Array, rng: np.random.Generator) -> Array:
@@ -170,7 +180,9 @@ class FabricCase:
         return seen
 
 
-def drawn_case(identifier: str, rng: np.random.Generator, kind: str = "", rig: str = "drape") -> FabricCase:
+def drawn_case(
+    identifier: str, rng: np.random.Generator, kind: str = "", rig: str = "drape", least: float = 0.0
+) -> FabricCase:
     """A case with its fabric, kind, effect and strength drawn.
 
     Args:
@@ -178,16 +190,42 @@ def drawn_case(identifier: str, rng: np.random.Generator, kind: str = "", rig: s
         rng: Of all draws.
         kind: This one; empty: drawn by `KINDS`.
         rig: One of `RIGS`.
+        least: What an effect of links moves the markers by at least, root mean square [m]: one that moves them by less
+            is drawn again. 0: as drawn.
+
+    Raises:
+        ValueError: No effect of `TRIES` moves the markers by so much.
     """
     kind = kind or str(rng.choice(list(KINDS), p=list(KINDS.values())))
     own = RIGS[rig]
     off = {n: getattr(own.base, n) * math.exp(share * float(rng.standard_normal())) for n, share in OFF.items()}
-    specimen = replace(own.base, **off)
+    plain = FabricCase(identifier, kind, "", 0.0, replace(own.base, **off), rig)
+    case = _with_effect(plain, rng)
+    if not least or kind not in MOVING:
+        return case
+    nominal = _mean_markers(plain, rng)
+    for _ in range(TRIES):
+        moves = float(np.sqrt(np.mean((_mean_markers(case, rng) - nominal) ** 2)))
+        if moves >= least:
+            return replace(case, moves=moves)
+        case = _with_effect(plain, rng)
+    raise ValueError(f"none of {TRIES} effects that were drawn moves the markers of {rig} by {1e3 * least:g} mm")
+
+
+def _mean_markers(case: FabricCase, rng: np.random.Generator) -> Array:
+    """Places of the free rows' markers [m], mean of `STARTS` starts, shape (pictures, markers, 3)."""
+    runs = [drape(case.specimen, RIGS[case.rig].stop, INTERVAL, rng)[:, 2 * HELD :] for _ in range(STARTS)]
+    return np.asarray(np.mean(runs, axis=0))
+
+
+def _with_effect(plain: FabricCase, rng: np.random.Generator) -> FabricCase:
+    """A fabric that lacks nothing with an effect of its kind, strength and place drawn."""
+    kind, specimen, own = plain.kind, plain.specimen, RIGS[plain.rig]
     if kind == "null":
-        return FabricCase(identifier, kind, "", 0.0, specimen, rig)
+        return plain
     if kind == "camera":
         effect, strength = _drawn(own.camera, rng)
-        return FabricCase(identifier, kind, effect, strength, specimen, rig)
+        return replace(plain, effect=effect, strength=strength)
     if kind == "local":
         effect = str(rng.choice(list(own.local)))
         strength = float(rng.uniform(*own.local[effect]))
@@ -196,9 +234,9 @@ def drawn_case(identifier: str, rng: np.random.Generator, kind: str = "", rig: s
         is_row = own.has_rows and rng.random() < 0.4
         at_row, at_link = (link // per_row, -1) if is_row else (-1, link)
         specimen = replace(specimen, effects={effect: strength}, at_row=at_row, at_link=at_link)
-        return FabricCase(identifier, kind, effect, strength, specimen, rig)
+        return replace(plain, effect=effect, strength=strength, specimen=specimen)
     effect, strength = _drawn(own.spread, rng)
-    return FabricCase(identifier, kind, effect, strength, replace(specimen, effects={effect: strength}), rig)
+    return replace(plain, effect=effect, strength=strength, specimen=replace(specimen, effects={effect: strength}))
 
 
 def _drawn(effects: Mapping[str, tuple[float, float, bool]], rng: np.random.Generator) -> tuple[str, float]:
@@ -209,7 +247,9 @@ def _drawn(effects: Mapping[str, tuple[float, float, bool]], rng: np.random.Gene
     return effect, -strength if has_sign and rng.random() < 0.5 else strength
 
 
-def write_cases(folder: Path, count: int, seed: int, kind: str = "", rig: str = "drape") -> list[str]:
+def write_cases(
+    folder: Path, count: int, seed: int, kind: str = "", rig: str = "drape", least: float = 0.0
+) -> list[str]:
     """Draw cases and write them into `cases/` and `answers/`; returns their names.
 
     Args:
@@ -218,14 +258,15 @@ def write_cases(folder: Path, count: int, seed: int, kind: str = "", rig: str = 
         seed: Of all draws.
         kind: This one alone; empty: all.
         rig: One of `RIGS`.
+        least: What an effect moves the markers by at least, root mean square [m]; 0: it is not asked.
     """
     names = []
     for number in range(count):
-        rng = np.random.default_rng([seed, number])
-        case = drawn_case(f"fabric_{number + 1:03d}", rng, kind, rig)
-        if not (folder / "answers" / f"{case.identifier}.json").is_file():
+        rng, name = np.random.default_rng([seed, number]), f"fabric_{number + 1:03d}"
+        if not (folder / "answers" / f"{name}.json").is_file():
+            case = drawn_case(name, rng, kind, rig, least)
             case.write(folder / "cases", folder / "answers", rng)
-        names.append(case.identifier)
+        names.append(name)
     return names
 
 
