@@ -27,7 +27,13 @@ from diagnosis.isolability.isolability import isolability
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.adequacy import adequacy, moved_day, with_day, with_solving
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
-from diagnosis.judge.doubts import doubted, of_another_experiment, without_explained_starts, without_times_that_fit
+from diagnosis.judge.doubts import (
+    ODD,
+    doubted,
+    of_another_experiment,
+    without_explained_starts,
+    without_times_that_fit,
+)
 from diagnosis.judge.findings import findings
 from diagnosis.judge.form import companions, share_at_place
 from diagnosis.judge.gain import is_better
@@ -61,11 +67,13 @@ from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.biased import with_biases
 from diagnosis.recording.labels import distinct
 from diagnosis.recording.recording import Recording
+from diagnosis.refitted import Refitted
 from diagnosis.report.user_units import written_units
 from diagnosis.search.problem import Point, Term
 from diagnosis.search.search import Outcome, Settings
 from diagnosis.search.shares import titled
 from diagnosis.search.structure import structure
+from diagnosis.standing_out import apart_once_refitted
 from diagnosis.ways import other_ways
 
 #: Laws with a name that are fitted all the same where none of the best-scored terms leaves noise: of most systems all.
@@ -300,10 +308,13 @@ def _doubts(
     judge: DiagnosisModel | None,
     options: Options,
 ) -> tuple[Doubt, ...]:
-    """Doubts beside the scenario as it is, and about clocks beside it once recalibrated."""
+    """Doubts beside the scenario as it is; about clocks, and recordings that stand out, beside it once recalibrated."""
     if not options.is_checked or of_another_experiment(found):
         return found
-    again = clocks_once_recalibrated(model, judge, compared)
+    refitted = Refitted(model, judge, compared)
+    again = clocks_once_recalibrated(refitted)
+    told = {d.recording for d in (*found, *again) if d.is_serious or d.kind == ODD}
+    again += apart_once_refitted(refitted, told)
     known = {(d.recording, d.subject, d.kind) for d in again}
     return (*again, *(d for d in found if (d.recording, d.subject, d.kind) not in known))
 

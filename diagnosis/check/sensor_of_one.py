@@ -26,10 +26,12 @@ LAGS = tuple(np.geomspace(2e-3, 0.3, 15).tolist())
 INSTANTS = 25
 #: Share of the readings that an offset has at least, and at most: the rest is another zero.
 SHORTEST, LONGEST = 0.03, 0.97
+#: How far from 1 a sensor's factor is none.
+SAME_SLOPE = 0.01
 
 
 @dataclass(frozen=True)
-class _Explained:
+class Explained:
     """What a sensor would have done, in words, the share that is left of its channel, and the stretch concerned [s]."""
 
     what: str
@@ -51,9 +53,8 @@ def sensor_of_one(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     if len(missed) != 1:
         return None
     (name,) = missed
-    beside = one.channels[name]
-    found = min((e(beside) for e in (_drift, _lag, _offset)), key=lambda f: f.left)
-    if found.left > enough:
+    found = explained_by_sensor(one.channels[name], enough)
+    if found is None:
         return None
     text = (
         f"scaled and shifted as suits each channel best, the scenario explains {percent(1.0 - before)} of its variance "
@@ -68,13 +69,35 @@ def sensor_of_one(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     return Doubt(one.recording.title, name, "sensor", text, remedy, False, found.begin, found.end, z)
 
 
-def _drift(beside: Beside) -> _Explained:
+def explained_by_sensor(beside: Beside, enough: float) -> Explained | None:
+    """The fault of a sensor that explains a channel best, scaled and shifted too; None if none leaves so little.
+
+    Args:
+        beside: The channel of one recording.
+        enough: Share of its variance that may be left.
+    """
+    scaled = _scaled(beside)
+    if scaled.left <= enough:
+        return scaled
+    found = min((e(beside) for e in (_drift, _lag, _offset)), key=lambda f: f.left)
+    return found if found.left <= enough else None
+
+
+def _scaled(beside: Beside) -> Explained:
+    """Another range, amplification or zero from begin to end."""
+    begin, end = float(beside.times[0]), float(beside.times[-1])
+    slope = float(np.polyfit(beside.simulated_there, beside.measured, 1)[0])
+    what = "had another zero" if abs(slope - 1.0) < SAME_SLOPE else f"read {slope:.3g} times as much from another zero"
+    return Explained(what, scaled_left(beside, beside.simulated_there), begin, end)
+
+
+def _drift(beside: Beside) -> Explained:
     """A zero that moves in proportion to time."""
     begin, end = float(beside.times[0]), float(beside.times[-1])
-    return _Explained("drifted in proportion to time", _left_with(beside, beside.times - begin), begin, end)
+    return Explained("drifted in proportion to time", _left_with(beside, beside.times - begin), begin, end)
 
 
-def _lag(beside: Beside) -> _Explained:
+def _lag(beside: Beside) -> Explained:
     """A first-order lag."""
     span = float(np.ptp(beside.times))
 
@@ -83,10 +106,10 @@ def _lag(beside: Beside) -> _Explained:
 
     logarithm, share = best_logarithm(missed, [float(np.log(s * span)) for s in LAGS])
     what = f"had a lag of about {instant(float(np.exp(logarithm)), 2)} s"
-    return _Explained(what, share, float(beside.times[0]), float(beside.times[-1]))
+    return Explained(what, share, float(beside.times[0]), float(beside.times[-1]))
 
 
-def _offset(beside: Beside) -> _Explained:
+def _offset(beside: Beside) -> Explained:
     """A zero that is off between two instants."""
     basis, count = _basis(beside), len(beside.times)
     rest = _freed(beside.measured, basis)
@@ -109,7 +132,7 @@ def _offset(beside: Beside) -> _Explained:
     box = ((there >= begin) & (there < end)).astype(np.float64)
     first, last = float(beside.times[begin]), float(beside.times[end - 1])
     what = f"was off by as much from about {between(first, last)} s"
-    return _Explained(what, _left_with(beside, box), first, last)
+    return Explained(what, _left_with(beside, box), first, last)
 
 
 def _pairs(begins: AnyArray, ends: AnyArray) -> Iterator[tuple[int, int]]:

@@ -121,7 +121,7 @@ def why_open(
         )
     if suggested := [f for f in found if not f.is_accepted]:
         reasons.append(_COARSE if all(f.is_coarse for f in suggested) else _UNCONFIRMED)
-    reasons += _rejections(adequacy, _unexplained(outcome, found, searched))
+    reasons += _rejections(adequacy, _unexplained(outcome, found, searched, adequacy))
     is_open, left = adequacy.is_open, outcome.base_structure
     noise = math.sqrt(times_white(adequacy.alike, (left.channels,))) * times_louder(adequacy.louder, (left.channels,))
     if not is_open and abs(left.z) / noise > EVIDENT * left.limit:
@@ -182,10 +182,15 @@ def _open_ones(found: Sequence[Finding]) -> list[str]:
     return reasons
 
 
-def _unexplained(outcome: Outcome, found: Sequence[Finding], searched: Searched) -> str:
-    """What is known of the laws that were tried where readings reject the model; empty where one is suggested."""
+def _unexplained(outcome: Outcome, found: Sequence[Finding], searched: Searched, adequacy: Adequacy) -> str:
+    """What is known of the laws that were tried where readings reject the model; empty where one is suggested.
+
+    Laws are fitted to the training: of what other readings alone show none was asked.
+    """
     if not searched.has_physics or any(not f.is_accepted for f in found):
         return ""
+    if adequacy.is_rejected and not adequacy.is_training_rejected:
+        return ", and of the training readings, to which laws are fitted, no more is left than noise explains"
     if outcome.first is not None and outcome.first.best.terms:  # found by the noise of the sensors alone
         return ", and once its own error is counted no law that was tried explains more of what is left than chance may"
     return ", and no law that was tried explains what is left"

@@ -26,6 +26,7 @@ from diagnosis.judge.diagnosis import Doubt, Verdict
 from diagnosis.judge.headline import headline
 from diagnosis.models.build import models_of
 from diagnosis.recording.recording import load_recording
+from diagnosis.refitted import Refitted
 from tests.systems.rigs import COUNT, STEP, oscillator, oscillator_recordings
 
 SIZES = (0.4, 0.5, 0.45)
@@ -225,7 +226,7 @@ def _once_recalibrated(folder: Path, recordings: list[Path], held_out: int = 1) 
     every = [compare(scenario, load_recording(r)) for r in recordings]
     read = [one.recording for one in every]
     model, judge = models_of(scenario, read[:-held_out], read[-held_out:], catalogue())
-    return clocks_once_recalibrated(model, judge, every)
+    return clocks_once_recalibrated(Refitted(model, judge, every))
 
 
 @pytest.mark.parametrize("order", [(0, 1, 2), (0, 2, 1)], ids=["fitted", "held out"])

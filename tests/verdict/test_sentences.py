@@ -187,12 +187,19 @@ def test_a_law_that_is_suggested_may_explain_what_is_left() -> None:
     """The readings reject the model without it; whether a law that was tried explains them is then open."""
     base = SimpleNamespace(point=Point(np.zeros(1)), widths=np.ones(1))
     outcome = SimpleNamespace(base_structure=Structure(0.0, "", 0.0, 1.0), base=base, first=None)
-    tried, rejected = Searched((Domain("thermal", 30, 12, 37),)), replace(ADEQUACY, is_recalibration_worse=False)
+    tried, rejected = (
+        Searched((Domain("thermal", 30, 12, 37),)),
+        replace(ADEQUACY, is_recalibration_worse=False, is_training_rejected=True),
+    )
     without = why_open(outcome, (), rejected, tried)  # type: ignore[arg-type]
     assert "the readings reject the model, and no law that was tried explains what is left" in without
     outcome.first = SimpleNamespace(best=SimpleNamespace(terms=(CONTACT,)))
     found_before = why_open(outcome, (), rejected, tried)  # type: ignore[arg-type]
     assert "no law that was tried explains more of what is left than chance may" in found_before[0]
+    met = replace(rejected, is_training_rejected=False)
+    (there,) = why_open(outcome, (), met, tried)  # type: ignore[arg-type]
+    assert "no law" not in there
+    assert "of the training readings, to which laws are fitted, no more is left than noise explains" in there
     beside = why_open(outcome, (replace(CONTACT, is_accepted=False),), rejected, tried)  # type: ignore[arg-type]
     assert "the readings reject the model" in beside
 

@@ -1,0 +1,80 @@
+"""A recording that stands out beside numbers that were fitted to the others, seen before any search.
+
+Numbers that are off hide that one recording is missed (`diagnosis.check.odd_one_out` compares with the scenario as it
+is). Once they are fitted to the other recordings, and these are met, it shows, and so does whether a fault of one
+sensor would explain it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Sequence
+
+from diagnosis.check.beside import Compared
+from diagnosis.check.odd_one_out import MET, SAME, TIMES, as_explained, comparable, left, left_beside
+from diagnosis.check.sensor_of_one import explained_by_sensor
+from diagnosis.check.timing import percent
+from diagnosis.judge.diagnosis import Doubt
+from diagnosis.judge.doubts import ODD
+from diagnosis.refitted import Refitted
+
+_RIG = (
+    "look at this recording's input, start and day first; a law that is missing, or a number that the others do not "
+    "determine, shows in it alone where it alone reaches that, and a law where the numbers of the others took it up"
+)
+_SENSOR = (
+    "look at this sensor, its amplifier and its column first; a number, an input or a law that this recording alone "
+    "has may look alike in one channel"
+)
+
+
+def apart_once_refitted(refitted: Refitted, known: Collection[str] = ()) -> list[Doubt]:
+    """Doubts about recordings that stand out, one each, none of them serious.
+
+    Of a recording of the training the others are those that its numbers are fitted to, and those held out; of one
+    held out each other recording is predicted with numbers that were not fitted to it either.
+
+    Args:
+        refitted: The recordings beside fitted numbers.
+        known: Titles of recordings of which it is known already.
+
+    Returns:
+        None where there are fewer than three recordings, or where a fit takes minutes.
+    """
+    if not refitted.is_of_use or not refitted.has_unfitted:
+        return []
+    found = []
+    for number, title in enumerate(refitted.titles):
+        if title in known:
+            continue
+        every = refitted.by_others(title) if title in refitted.fitted else refitted.foreseen
+        if every:
+            found.append(_apart(every[number], [o for i, o in enumerate(every) if i != number]))
+    return [d for d in found if d is not None]
+
+
+def _apart(one: Compared, others: Sequence[Compared]) -> Doubt | None:
+    """A doubt about a recording beside others that are met; None where it does not stand out.
+
+    Args:
+        one: Beside numbers that were not fitted to it.
+        others: Beside the same.
+    """
+    mine, theirs = left_beside(one, others, left)
+    channels = comparable(one)
+    if not channels or theirs > 1.0 - MET or mine < max(TIMES * theirs, SAME) or not all(map(comparable, others)):
+        return None
+    told = f"at least {percent(1.0 - theirs)} of the variance of each other recording that can be compared"
+    text = f"with numbers fitted to the others the scenario explains {told} and {percent(max(1.0 - mine, 0.0))} of "
+    text += "this one's"
+    missed = [n for n, b in channels.items() if left(b, b.simulated_there) > as_explained(theirs)]
+    subject, remedy, begin, end = "all channels", _RIG, one.begin, one.end
+    if len(missed) == 1:
+        (subject,) = missed
+        text += f", where {subject} alone is missed" if len(channels) > 1 else ""
+        sensor = explained_by_sensor(channels[subject], as_explained(theirs))
+        if sensor is not None:
+            text += f"; as if this sensor {sensor.what}, it is {percent(1.0 - sensor.left)}"
+            remedy, begin, end = _SENSOR, sensor.begin, sensor.end
+    z = math.sqrt(mine / max(theirs, 1e-12))
+    return Doubt(one.recording.title, subject, ODD, text, remedy, False, begin, end, z)
