@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from diagnosis.check.beside import Compared
+from diagnosis.check.beside import Compared, compare
 from diagnosis.check.odd_one_out import OTHERS
 from diagnosis.judge.held_out import carried_over
 from diagnosis.models.protocol import DiagnosisModel
@@ -77,6 +77,18 @@ class Refitted:
         for number in range(len(self._model.runs)):
             every[number] = _beside(self._compared[number], self._model, self._point_without(number), number)
         return every
+
+    def restated(self, title: str) -> list[Compared]:
+        """Every recording beside a simulation of the scenario with numbers that were not fitted to this recording.
+
+        What one recording has of its own (its start, say) is as the scenario and the recording say. Empty where the
+        model does not state its numbers in a scenario.
+        """
+        is_fitted = title in self.fitted
+        point = self._point_without(self.fitted.index(title)) if is_fitted else self._point
+        scenario = self._compared[0].base
+        other = None if scenario is None else self._model.restated(scenario, point)
+        return [] if other is None else [compare(other, one.whole) for one in self._compared]
 
     @cached_property
     def _point(self) -> Point:

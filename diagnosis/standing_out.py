@@ -9,15 +9,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
+from dataclasses import replace
 
 from diagnosis.check.beside import Compared
+from diagnosis.check.late_input import late_input
 from diagnosis.check.odd_one_out import MET, SAME, TIMES, as_explained, comparable, left, left_beside
+from diagnosis.check.other_course import other_course, paused_input
+from diagnosis.check.other_number import other_number
 from diagnosis.check.sensor_of_one import explained_by_sensor
+from diagnosis.check.size_of_input import size_of_input
 from diagnosis.check.timing import percent
+from diagnosis.check.unit_of_input import unit_of_input
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.judge.doubts import ODD
 from diagnosis.refitted import Refitted
 
+_FITTED = "with numbers fitted to the others"
 _RIG = (
     "look at this recording's input, start and day first; a law that is missing, or a number that the others do not "
     "determine, shows in it alone where it alone reaches that, and a law where the numbers of the others took it up"
@@ -29,7 +36,7 @@ _SENSOR = (
 
 
 def apart_once_refitted(refitted: Refitted, known: Collection[str] = ()) -> list[Doubt]:
-    """Doubts about recordings that stand out, one each, none of them serious.
+    """Doubts about recordings that stand out, one each; serious where one of its inputs alone explains it.
 
     Of a recording of the training the others are those that its numbers are fitted to, and those held out; of one
     held out each other recording is predicted with numbers that were not fitted to it either.
@@ -48,9 +55,42 @@ def apart_once_refitted(refitted: Refitted, known: Collection[str] = ()) -> list
         if title in known:
             continue
         every = refitted.by_others(title) if title in refitted.fitted else refitted.foreseen
-        if every:
-            found.append(_apart(every[number], [o for i, o in enumerate(every) if i != number]))
-    return [d for d in found if d is not None]
+        told = _apart(*_parted(every, number)) if every else None
+        if told is not None:
+            found.append(_of_rig(refitted, number) or told if told.remedy == _RIG else told)
+    return found
+
+
+def _parted(every: Sequence[Compared], number: int) -> tuple[Compared, list[Compared]]:
+    """One recording, and the others."""
+    return every[number], [o for i, o in enumerate(every) if i != number]
+
+
+def _of_rig(refitted: Refitted, number: int) -> Doubt | None:
+    """Which input or number was another in a recording that stands out, as the check asks beside the scenario as it is.
+
+    It is serious where one input alone does, and no number: numbers are fitted here, and one may be off that the others
+    do not determine.
+    """
+    every = refitted.restated(refitted.titles[number])
+    if not every:
+        return None
+    one, others = _parted(every, number)
+    told = late_input(one)
+    told = told or next(
+        (d for ask in (unit_of_input, size_of_input, other_course, paused_input) if (d := ask(one, others))), None
+    )
+    own = other_number(one, others)
+    if told is None:
+        return None if own is None else _beside_fitted(own, "", is_serious=False)
+    also = "" if own is None else f"; another {own.subject} in this recording does as well"
+    return _beside_fitted(told, also, told.is_serious and own is None)
+
+
+def _beside_fitted(doubt: Doubt, also: str, is_serious: bool) -> Doubt:
+    """A doubt of the check, told of the scenario with fitted numbers and not of the scenario as it is."""
+    text = f"{_FITTED}, {doubt.statement.replace(' as it is', '')}{also}"
+    return replace(doubt, statement=text, is_serious=is_serious)
 
 
 def _apart(one: Compared, others: Sequence[Compared]) -> Doubt | None:
@@ -65,7 +105,7 @@ def _apart(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     if not channels or theirs > 1.0 - MET or mine < max(TIMES * theirs, SAME) or not all(map(comparable, others)):
         return None
     told = f"at least {percent(1.0 - theirs)} of the variance of each other recording that can be compared"
-    text = f"with numbers fitted to the others the scenario explains {told} and {percent(max(1.0 - mine, 0.0))} of "
+    text = f"{_FITTED} the scenario explains {told} and {percent(max(1.0 - mine, 0.0))} of "
     text += "this one's"
     missed = [n for n, b in channels.items() if left(b, b.simulated_there) > as_explained(theirs)]
     subject, remedy, begin, end = "all channels", _RIG, one.begin, one.end

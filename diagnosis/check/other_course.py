@@ -54,6 +54,8 @@ UNLIKE, APART = 0.7, 0.2
 PAUSED = 10.0
 #: Macro-steps beyond which intervals are not sought in inputs of which no other course explains the readings.
 MOST_PAUSES = 10_000
+#: How many times the largest misfit of any other recording a reading is off that has departed.
+DEPARTED = 1.5
 #: Deviations of the noise from which a channel answers to an input that is higher by half its range.
 ANSWERS = 10.0
 
@@ -89,12 +91,35 @@ def _asked(runs: InputRuns, others: Sequence[Compared], channels: dict[str, Besi
         if told is not None:
             found.append((course, *told))
     asked = [course for course, *_ in found] or (courses if one.scenario.time.macro_steps <= MOST_PAUSES else [])
-    pauses = [pause for course in asked for pause in _pauses(runs, channels, course)]
+    of_pause = _paused(runs, others, channels, asked)
+    return of_pause or (_doubt(one, channels, *found[0]) if len(found) == 1 else None)
+
+
+def paused_input(one: Compared, others: Sequence[Compared]) -> Doubt | None:
+    """A doubt about the input that was not applied for a while, or did not move, never serious; None where none was.
+
+    It is asked of a recording that is met for the most part, too.
+
+    Args:
+        one: A recording that stands out.
+        others: The other recordings of the same rig, which the scenario meets.
+    """
+    channels = comparable(one)
+    is_short = one.scenario.time.macro_steps <= MOST_PAUSES
+    if one.base is None or not is_quick(one.scenario) or not is_short or len(channels) < CHANNELS:
+        return None
+    with closing(InputRuns(one)) as runs:
+        return _paused(runs, others, channels, of_one_element(one))
+
+
+def _paused(
+    runs: InputRuns, others: Sequence[Compared], channels: dict[str, Beside], courses: Sequence[Course]
+) -> Doubt | None:
+    since = _departure(channels, others)
     as_stated = most_left(channels.values(), scaled_left)
-    pauses = [p for p in pauses if p.left < min(1.0 - MET, as_stated / PAUSED)]
-    if pauses:
-        return _of_pause(one, channels, min(pauses, key=lambda p: p.left))
-    return _doubt(one, channels, *found[0]) if len(found) == 1 else None
+    every = [pause for course in courses for pause in _pauses(runs, channels, course, since)]
+    pauses = [p for p in every if p.left < min(1.0 - MET, as_stated / PAUSED)]
+    return _of_pause(runs.one, channels, min(pauses, key=lambda p: p.left)) if pauses else None
 
 
 def _estimated(
@@ -139,14 +164,28 @@ def _estimated(
     return None if explained < MET or likeness >= UNLIKE else (explained, likeness)
 
 
-def _pauses(runs: InputRuns, channels: dict[str, Beside], course: Course) -> list[Pause]:
+def _departure(channels: dict[str, Beside], others: Sequence[Compared]) -> float | None:
+    """When the first channel departs from its simulation by more than channels of the others ever do, to stay [s]."""
+    found = []
+    for name, beside in channels.items():
+        there = [o.channels[name] for o in others if name in comparable(o)]
+        if not there:
+            return None
+        most = DEPARTED * max(float(np.abs(b.measured - b.simulated_there).max()) for b in there)
+        is_away = np.abs(beside.measured - beside.simulated_there) > max(most, DEPARTED * beside.floor)
+        runs = np.flatnonzero(is_away[2:] & is_away[1:-1] & is_away[:-2])
+        found += [float(beside.times[max(runs[0] - 1, 0)])] if len(runs) else []
+    return min(found, default=None)
+
+
+def _pauses(runs: InputRuns, channels: dict[str, Beside], course: Course, since: float | None) -> list[Pause]:
     """Intervals without which the stated course explains most: it was not applied then, or did not move."""
     one, missed = runs.one, runs.missed_with(channels, course)
     step = nanoseconds(one.scenario.time.macro_step) * 1e-9
     is_temperature = parse_unit(course.unit).dimensionality == parse_unit("K").dimensionality  # its zero is not nothing
     kinds = [] if is_temperature or not np.any(course.values) else [NOTHING]
     kinds += [STAYED] if np.ptp(course.values) > 0.0 else []
-    return [paused(course, kind, (one.begin, one.end), step, missed) for kind in kinds]
+    return [paused(course, kind, (one.begin, one.end), step, missed, since) for kind in kinds]
 
 
 def _likeness(stated: Array, values: Array, bounds: tuple[float, float]) -> float:

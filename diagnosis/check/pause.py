@@ -13,6 +13,8 @@ from diagnosis.check.beside import Course
 
 #: Pieces of the recording at whose ends an interval is sought first, and how often steps are halved from there.
 PIECES, HALVINGS = 12, 5
+#: Lengths of intervals from where readings depart, each half of the one before.
+SHORTER = 8
 #: What an input does in the interval.
 NOTHING, STAYED = "nothing acted", "it did not move"
 
@@ -37,12 +39,18 @@ class Pause:
 
 
 def paused(
-    course: Course, kind: str, span: tuple[float, float], step: float, missed: Callable[[Array, Array], float]
+    course: Course,
+    kind: str,
+    span: tuple[float, float],
+    step: float,
+    missed: Callable[[Array, Array], float],
+    since: float | None = None,
 ) -> Pause:
     """The interval with which the least is missed.
 
-    Every interval between ends of pieces is tried, and from the best one begin and end move by halved steps (compass
-    search; Kolda, Lewis, Torczon, SIAM Review 45 (2003) 385-482).
+    Every interval between ends of pieces is tried, and those of several lengths that begin where readings depart; from
+    the best one begin and end move by halved steps (compass search; Kolda, Lewis, Torczon, SIAM Review 45 (2003)
+    385-482).
 
     Args:
         course: Of the input, as stated.
@@ -50,6 +58,7 @@ def paused(
         span: Begin and end of the recording [s].
         step: Macro-step, within which a linear course changes at both ends [s].
         missed: What a course, times [s] and values, leaves of the readings.
+        since: When readings depart from what the stated course gives [s]; None: it is not known.
     """
     ends = np.linspace(*span, PIECES + 1)
 
@@ -57,9 +66,14 @@ def paused(
         begin, end = interval
         return missed(*_with_pause(course, kind, begin, end, step)) if end - begin > 2.0 * step else np.inf
 
-    best = min(itertools.combinations(ends.tolist(), 2), key=of)
-    least = of(best)
-    width = (span[1] - span[0]) / PIECES
+    tried = list(itertools.combinations(ends.tolist(), 2))
+    if since is not None:
+        lengths = (span[1] - since) * 0.5 ** np.arange(SHORTER)
+        tried += [(since, float(since + length)) for length in lengths]
+    values = [of(interval) for interval in tried]
+    least = min(values)
+    best = tried[values.index(least)]
+    width = min((span[1] - span[0]) / PIECES, best[1] - best[0])
     for _ in range(HALVINGS):
         width *= 0.5
         moves = [(a * width, b * width) for a, b in itertools.product((-1, 0, 1), repeat=2) if a or b]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
@@ -53,6 +52,8 @@ _FAR = (1, 2, 3, 5, 8, 13, 21, 34, 55, 89)
 _MOVES = (*(-m for m in reversed(_FAR)), *_FAR)
 #: Pieces of a recording in which a change of an input is simulated: by the coil network, and where a run takes seconds.
 PIECES, FEW_PIECES = 16, 12
+#: How often pieces at both ends of the best interval of an input are cut finer, where a simulation takes no seconds.
+ROUNDS = 2
 
 
 class FaultyModel(WrappedModel):
@@ -193,9 +194,9 @@ class FaultyModel(WrappedModel):
         if not terms or structure(base.residuals, self.layout).is_noise:
             return Scoring([], 0, np.zeros(draws), (None,) * draws)
 
-        def slopes(term: Term, edges: Array) -> Array:
+        def slopes(term: Term, intervals: Array) -> Array:
             step = term.parameters[0].starts[0]
-            tasks = [(term, (step, float(a), float(b))) for a, b in itertools.pairwise(edges)]
+            tasks = [(term, (step, float(a), float(b))) for a, b in intervals]
             return strength_slopes(self, base.point, None, tasks)
 
         def moved(term: Term, intervals: Array) -> Array:
@@ -207,7 +208,8 @@ class FaultyModel(WrappedModel):
         pieces = PIECES if self.is_fast else FEW_PIECES
         held = [(t, own[t.recording]) for t in terms if t.identifier == HELD.identifier]
         others = [(t, own[t.recording]) for t in terms if t.identifier != HELD.identifier]
-        found = input_scores(projection, scaled, others, slopes, pieces)
+        has_time = self.is_fast or self.can_be_searched_again
+        found = input_scores(projection, scaled, others, slopes, pieces, ROUNDS if has_time else 0)
         return found.joined(held_scores(base, projection, scaled, held, moved, self._held)) if held else found
 
     def _residuals_of(self, recording: int | None) -> slice:
@@ -215,7 +217,11 @@ class FaultyModel(WrappedModel):
         return slice(every[0].start, every[-1].stop)
 
     def near_intervals(self, point: Point) -> Iterator[Point]:
-        """The same with the begin or end of one of its faults some samples elsewhere, or both together."""
+        """The same with the begin or end of one of its faults some samples elsewhere, or both together, or at the ends.
+
+        Between two pulses of an input nothing tells when its fault ended: samples nearby say as little, and the end of
+        the recording takes the pulses after that in.
+        """
         for term, values in point.terms.items():
             if term.recording is None:
                 continue
@@ -223,18 +229,27 @@ class FaultyModel(WrappedModel):
             edges = self._edges(term)
             places = [int(np.argmin(np.abs(edges - v))) for v in (begin, end)]
             known = {tuple(places)}
-            for move in _MOVES:
-                for first, last in ((move, 0), (0, move), (move, move)):
-                    a, b = (min(max(p + m, 0), len(edges) - 1) for p, m in zip(places, (first, last)))
-                    if a < b and (a, b) not in known:
-                        known.add((a, b))
-                        yield point.plus(term, (strength, float(edges[a]), float(edges[b])))
+            whole = (0, len(edges) - 1)
+            if term in self.sensor_terms:
+                known.add(whole)  # that is a bias of the sensor
+            for a, b in (*_intervals_near(places[0], places[1], len(edges) - 1), whole):
+                if a < b and (a, b) not in known:
+                    known.add((a, b))
+                    yield point.plus(term, (strength, float(edges[a]), float(edges[b])))
 
     def _edges(self, term: Term) -> Array:
         readings = self.sensor_terms.get(term)
         if readings is not None:
             return readings.edges
         return max((r.edges for r in self.readings if r.recording == term.recording), key=len)
+
+
+def _intervals_near(begin: int, end: int, last: int) -> Iterator[tuple[int, int]]:
+    """Numbers of the edges of other intervals: some samples elsewhere, and up to either end of the recording."""
+    for move in _MOVES:
+        for first, second in ((move, 0), (0, move), (move, move)):
+            yield min(max(begin + first, 0), last), min(max(end + second, 0), last)
+    yield from ((0, end), (begin, last))
 
 
 def _gains_of(readings: Readings) -> Iterator[tuple[FaultLaw, TermParameter]]:

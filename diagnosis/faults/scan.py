@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
+from itertools import pairwise
 
 import numpy as np
 
@@ -41,6 +43,10 @@ HELD_AGAIN = 12
 NEARLY = (0.6, 1.6)
 #: Begins and ends that are tried at once near the best; the number of intervals grows with the square of it.
 MOST_CUTS = 400
+
+#: Into how many parts pieces at the ends of an input's interval are cut, and share of the largest gain of any input
+#: from which one is cut finer.
+FINER, WORTH = 4, 0.1
 
 Lead = tuple[Term, tuple[float, ...]] | None
 
@@ -274,25 +280,72 @@ def input_scores(
     terms: Sequence[tuple[Term, slice]],
     slopes: Callable[[Term, Array], Array],
     pieces: int,
+    rounds: int = 0,
 ) -> Scoring:
     """Scores of inputs that were another within an interval; responses to pieces of it add up along a straight line.
+
+    Sensors are scored to a sample. An input whose interval is shorter than a piece would stay behind one of them that
+    shows what is left of it, so that the pieces at both ends of the best interval are cut finer.
 
     Args:
         projection: Of the converged fit, with nulls.
         scaled: What wrapping models make of changes of residuals.
         terms: Faults with the residuals of their recordings.
-        slopes: Derivatives of all residuals by the strength of a term in pieces between edges.
+        slopes: Derivatives of all residuals by the strength of a term in intervals, shape (intervals, 2).
         pieces: Into how many a recording is cut.
+        rounds: How often they are cut finer.
     """
     found = _Collected(projection.draws)
+    tracks = []
     for term, own in terms:
-        strength, begin, _ = term.parameters
-        edges = np.linspace(begin.lower, begin.upper, pieces + 1)
-        rows = slopes(term, edges)[:, own]
-        if not np.isfinite(rows).all():
-            continue
-        parts = Pieces(*projection.pieces(scaled(rows, own), own), np.ones(pieces, dtype=int))
-        best = best_interval(parts, 1, (strength.lower, strength.upper))
+        _, begin, _ = term.parameters
+        track = _Track(projection, scaled, term, own, partial(slopes, term))
+        best = track.best(np.linspace(begin.lower, begin.upper, pieces + 1))
         if best is not None:
-            found.add(term, best, edges)
+            found.add(term, best, track.edges)
+            tracks.append((track, best))
+    most = max((best.gain for _, best in tracks), default=0.0)
+    for track, coarse in tracks:
+        best = coarse
+        for _ in range(rounds if coarse.gain > max(track.term.price, WORTH * most) else 0):
+            best = track.best(_finer(track.edges, best)) or best
+        if best.gain > coarse.gain:
+            found.scores = [s for s in found.scores if s.term != track.term]
+            found.score(track.term, best.gain, (best.amount, *track.edges[[best.first, best.last]].tolist()))
     return found.scoring()
+
+
+class _Track:
+    """An input of a recording with what a fault of it does in pieces, each of which is simulated once."""
+
+    def __init__(
+        self, projection: Projection, scaled: Scaled, term: Term, own: slice, slopes: Callable[[Array], Array]
+    ) -> None:
+        self.term, self.edges = term, np.zeros(0)
+        self._projection, self._scaled, self._own, self._slopes = projection, scaled, own, slopes
+        self._rows: dict[tuple[float, float], Array] = {}
+
+    def best(self, edges: Array) -> Best | None:
+        """The best interval between edges [s], by nulls where it is asked first; None where none can be seen."""
+        is_first = not self._rows
+        intervals = [(float(a), float(b)) for a, b in pairwise(edges)]
+        new = [i for i in intervals if i not in self._rows]
+        if new:
+            self._rows.update(zip(new, self._slopes(np.array(new))[:, self._own]))
+        rows = np.array([self._rows[i] for i in intervals])
+        if not np.isfinite(rows).all():
+            return None
+        products = self._projection.pieces(self._scaled(rows, self._own), self._own)
+        parts = Pieces(*products, np.ones(len(intervals), dtype=int))
+        strength = self.term.parameters[0]
+        found = best_interval(parts if is_first else parts.without_nulls(), 1, (strength.lower, strength.upper))
+        self.edges = edges if found is not None else self.edges
+        return found
+
+
+def _finer(edges: Array, best: Best) -> Array:
+    """Edges with those pieces cut into `FINER` that lie at either end of an interval."""
+    last = len(edges) - 1
+    cut = {e for end in (best.first, best.last) for e in (end - 1, end) if 0 <= e < last}
+    parts = [np.linspace(edges[e], edges[e + 1], FINER + 1) for e in sorted(cut)]
+    return np.unique(np.concatenate([edges, *parts]))

@@ -10,8 +10,8 @@ from diagnosis.judge.diagnosis import ChannelFit, Doubt, Finding, Standing
 
 #: Units of findings that are no physics of the rig.
 MEASURED = ("measurement", "input")
-#: Sensors and inputs of one recording that are hardly at fault at the same time without a common cause; and faults of
-#: one sensor in one recording, suggested ones too, that are pieces of one course.
+#: Sensors and inputs of one recording that are hardly at fault at the same time without a common cause, and faults of
+#: one sensor in one recording that are pieces of one course; suggested ones count.
 MANY = 3
 #: End of the identifiers of faults with begin and end.
 _IN_INTERVAL = "_in_interval"
@@ -186,13 +186,13 @@ def waits(finding: Finding) -> bool:
 def _one_cause(findings: Sequence[Finding]) -> tuple[Finding, ...]:
     """Findings, faults of many sensors and inputs of one recording as suggestions: one cause is more probable.
 
+    Suggested ones count: a pump that ran dry was a balance and a heater that were off, and a pressure that was so too.
     So are many of one sensor, and those that act at the same time: ramps and steps describe any course, whatever it
     comes from. Of an input they are told as another course that it had.
     """
     places: dict[str, set[str]] = {}
-    for finding in findings:
-        if finding.is_accepted and is_of_an_interval(finding):
-            places.setdefault(finding.recording, set()).add(finding.place)
+    for finding in filter(is_of_an_interval, findings):
+        places.setdefault(finding.recording, set()).add(finding.place.removesuffix(AGAIN))
     many = {recording for recording, own in places.items() if len(own) >= MANY}
     told = [
         _suggested(f, _HARDLY) if f.is_accepted and is_of_an_interval(f) and f.recording in many else f

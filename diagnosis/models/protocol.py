@@ -416,6 +416,15 @@ class DiagnosisModel(Protocol):
         """
         ...
 
+    def restated(self, scenario: Scenario, point: Point) -> Scenario | None:
+        """The scenario with a point's numbers that all recordings share; None where the model does not state them.
+
+        Args:
+            scenario: What was diagnosed.
+            point: Fitted values, of this model.
+        """
+        ...
+
     def amend(self, scenario: Scenario, point: Point, folder: Path) -> Path | None:
         """Write the scenario with a point's numbers and laws; None where there is no way to.
 
@@ -579,6 +588,10 @@ class ModelBase:
     def judged_by(self, point: Point) -> str:
         """The model that was fitted."""
         return "the model that was fitted"
+
+    def restated(self, scenario: Scenario, point: Point) -> Scenario | None:
+        """None: it does not state them."""
+        return None
 
     def amend(self, scenario: Scenario, point: Point, folder: Path) -> Path | None:
         """None: there is no way to."""

@@ -82,3 +82,19 @@ def test_the_interval_is_found_between_the_ends_of_pieces(kind: str, is_linear: 
     assert (found.begin, found.end) == (pytest.approx(23.0, abs=1.0), pytest.approx(61.5, abs=1.0))
     assert found.left < 0.03
     assert (found.kind, found.course) == (kind, course)
+
+
+def test_a_short_interval_is_sought_from_where_readings_depart() -> None:
+    """What is missed is the same wherever nothing acts but near the right interval, as of a response that collapses."""
+    times = np.arange(0.0, 100.0, 1.0)
+    course = Course("pump.flow", "L/min", times, np.full(100, 2.0), False, False)
+    begin, end = 23.0, 25.0
+
+    def missed(own_times: Array, values: Array) -> float:
+        off = own_times[values == 0.0]
+        on = own_times[(own_times > off[0]) & (values > 0.0)][0]
+        return min(abs(float(off[0]) - begin) + abs(float(on) - end), 4.0)
+
+    assert paused(course, NOTHING, (0.0, 100.0), 0.1, missed).left > 3.0
+    found = paused(course, NOTHING, (0.0, 100.0), 0.1, missed, 23.3)
+    assert (found.begin, found.end) == (pytest.approx(begin, abs=0.2), pytest.approx(end, abs=0.2))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
 
 from cosim.scenario import load_scenario
 from cosim.unit.protocol import Array
@@ -20,7 +22,7 @@ from diagnosis.models.build import models_of
 from diagnosis.recording.recording import load_recording
 from diagnosis.refitted import Refitted
 from diagnosis.standing_out import apart_once_refitted
-from tests.systems.rigs import COUNT, STEP, diagnosed, oscillator, oscillator_recordings
+from tests.systems.rigs import COUNT, STEP, diagnosed, drive, held, oscillator, oscillator_recordings
 
 SIZES = (0.4, 0.5, 0.45)
 TIMES: Array = STEP * np.arange(COUNT, dtype=np.float64)
@@ -56,6 +58,25 @@ def _spoiled(folder: Path, number: int, sensor: Callable[[Array], Array]) -> lis
     table = pd.read_csv(recordings[number] / "data.csv")
     table["x"] = sensor(table["x"].to_numpy())
     table.to_csv(recordings[number] / "data.csv", index=False)
+    return recordings
+
+
+def _driven(
+    folder: Path, number: int, other: Callable[[Array], Array], law: Callable[[float, float], float] = _stiffer
+) -> list[Path]:
+    """Recordings of the stiffer rig with its speed; one has another law, and states another course of its drive."""
+    oscillator(folder)
+    recordings = oscillator_recordings(folder, _stiffer, SIZES)
+    own = oscillator_recordings(folder / "own", law, SIZES)[number]
+    (recordings[number] / "data.csv").write_text((own / "data.csv").read_text())
+    for n, recording in enumerate(recordings):
+        table = pd.read_csv(recording / "data.csv")
+        table["v"] = np.gradient(table["x"].to_numpy(), STEP)
+        table["u"] = other(table["u"].to_numpy()) if n == number else table["u"]
+        table.to_csv(recording / "data.csv", index=False)
+        about = yaml.safe_load((recording / "recording.yaml").read_text(encoding="utf-8"))
+        about["channels"]["rig.speed"] = {"column": "v", "unit": "m/s", "noise": "0.15 m/s"}
+        (recording / "recording.yaml").write_text(yaml.safe_dump(about, sort_keys=False), encoding="utf-8")
     return recordings
 
 
@@ -100,6 +121,49 @@ def test_what_no_sensor_explains_is_said_of_the_recording_alone(tmp_path: Path) 
     assert told.recording == "run_3"
     assert "as if this sensor" not in told.statement
     assert "input, start and day" in told.remedy
+
+
+@pytest.mark.parametrize("number", [1, 2], ids=["fitted", "held out"])
+def test_an_input_that_acted_by_another_size_is_told(number: int, tmp_path: Path) -> None:
+    (told,) = _told(tmp_path, _driven(tmp_path, number, lambda u: u / 0.6))
+    assert (told.recording, told.subject) == (f"run_{number + 1}", "drive.u")
+    assert told.statement.startswith("with numbers fitted to the others, ")
+    factor = re.search(r"with ([\d.]+) times what is stated of drive.u", told.statement)
+    assert factor is not None
+    assert float(factor[1]) == pytest.approx(0.6, rel=0.01)
+
+
+def test_a_short_while_in_which_nothing_acted_is_told_of_the_input(tmp_path: Path) -> None:
+    """The amplifier of the drive was off from 1.3 to 1.45 s of 4 s."""
+    recordings = _driven(tmp_path, 1, lambda u: u)
+    u = drive(1, SIZES[1])
+    given = np.where((TIMES >= 1.3) & (TIMES < 1.45), 0.0, u)
+
+    def rate(x: Array, volt: float) -> Array:
+        return np.array([x[1], 101.0 * volt - 420.0 * x[0] - 4.05 * x[1]])
+
+    states = held(rate, np.zeros(2), given, STEP)
+    table = pd.read_csv(recordings[1] / "data.csv")
+    table["x"] = states[:, 0] + 1e-3 * np.random.default_rng(7).standard_normal(COUNT)
+    table["v"] = states[:, 1] + 0.15 * np.random.default_rng(8).standard_normal(COUNT)
+    table.to_csv(recordings[1] / "data.csv", index=False)
+    (told,) = _told(tmp_path, recordings)
+    assert (told.recording, told.subject) == ("run_2", "drive.u")
+    assert told.statement.startswith(
+        "with numbers fitted to the others, with the recorded course of drive.u the scenario"
+    )
+    assert " as it is " not in told.statement
+    assert (told.begin, told.end) == (pytest.approx(1.3, abs=0.02), pytest.approx(1.45, abs=0.02))
+
+
+def test_a_number_that_is_another_in_one_recording_is_told_and_the_search_goes_on(tmp_path: Path) -> None:
+    """A spring that was changed for one run: it may be a law that this run alone reaches."""
+    (told,) = _told(tmp_path, _driven(tmp_path, 1, lambda u: u, lambda x, v: -124.0 * x))
+    assert (told.recording, told.subject, told.kind) == ("run_2", "rig.k", "number")
+    assert not told.is_serious
+    stiffness = re.search(r"rig.k = ([\d.]+)", told.statement)
+    assert stiffness is not None
+    assert float(stiffness[1]) == pytest.approx(520.0, rel=0.02)
 
 
 def test_nothing_stands_out_of_good_recordings_nor_by_a_law_that_all_of_them_reach(tmp_path: Path) -> None:

@@ -54,6 +54,30 @@ def test_ends_are_tried_where_the_input_runs_again(tmp_path: Path) -> None:
     assert costs[1] < costs[0] - 100.0
 
 
+def test_an_interval_that_ends_between_two_strokes_is_tried_up_to_the_end_of_the_recording(tmp_path: Path) -> None:
+    """A pump that delivers 1.15 times what is stated: samples near an end between two strokes say nothing."""
+    rng = np.random.default_rng(6)
+    stated = np.zeros(COUNT)
+    for begin, end in ((20, 80), (300, 360)):
+        stated[begin:end] = 0.02
+    level = held(lambda h, q: (q - 0.0203 * h) / 0.495, np.array([0.4]), 1.15 * stated, STEP)[:, 0]
+    columns = {"t": STEP * np.arange(COUNT), "q": stated, "h": level + 1e-3 * rng.standard_normal(COUNT)}
+    path = write_recording(
+        tmp_path / "run", columns, {"pump.inflow": ("q", "m^3/s")}, {"tank.level": ("h", "m", "1 mm")}
+    )
+    tank(tmp_path, "200 s", "500 ms")
+    model = with_faults(model_of(load_scenario(str(tmp_path / "scenario.yaml")), [load_recording(path)], catalogue()))
+    (term,) = [t for t in model.faults() if t.identifier == "input_gain_in_interval"]
+    point = Point(np.zeros(len(model.parameters)), {term: (0.15, 5.0, 80.0)})
+    near = [p.terms[term] for p in model.near_intervals(point)]
+    assert len(set(near)) == len(near)
+    costs = {(begin, end): fit(model, Point(point.base, {term: (g, begin, end)}), 0).cost for g, begin, end in near}
+    _, best_end = min(costs, key=lambda k: costs[k])
+    assert best_end == max(end for _, end in costs) > STEP * 360
+    nearby = [c for (_, end), c in costs.items() if end < STEP * 300]
+    assert min(nearby) > min(costs.values()) + 100.0
+
+
 def test_ends_that_change_nothing_are_as_good_and_the_interval_holds_them(tmp_path: Path) -> None:
     """A pump that misses its second stroke was off before it or since the first one ended: no reading says."""
     stated = np.zeros(COUNT)

@@ -57,6 +57,16 @@ def test_many_faults_of_one_recording_have_one_cause(count: int, is_accepted: bo
     assert other.is_accepted
 
 
+def test_suggested_faults_of_other_sensors_of_the_recording_count_too() -> None:
+    """What the pump did not deliver was a balance and a heater that were off, and, not accepted, a gauge."""
+    places = [f"coil[1,{n}].temperature (monday)" for n in range(MANY)]
+    told = doubted([replace(FAULT, place=p, is_accepted=n > 0) for n, p in enumerate(places)], [])
+    assert not any(f.is_accepted for f in told)
+    again = [replace(FAULT, is_accepted=True), replace(FAULT, place=f"{FAULT.place}, again", is_accepted=False)]
+    told = doubted([*again, replace(FAULT, place=places[0], is_accepted=False)], [])
+    assert told[0].is_accepted  # two sensors, one of them twice
+
+
 @pytest.mark.parametrize(
     ("interval", "place", "recording", "is_accepted"),
     [

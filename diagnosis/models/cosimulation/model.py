@@ -24,6 +24,7 @@ from diagnosis.models.systems.run import is_system
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import Recording
 from diagnosis.search.cosim_model import ComponentTerm, CosimModel, can_be_added
+from diagnosis.search.cosim_run import changed
 from diagnosis.search.free_numbers import Free, Numbers, free_parameters
 from diagnosis.search.pendulum_terms import arm_of, pendulum_laws, sensor_laws
 from diagnosis.search.problem import Layout, Parameter, Point, Term
@@ -213,6 +214,10 @@ class ClosedLoopModel(ModelBase):
     def judged_by(self, point: Point) -> str:
         """What simulated recordings that judge, for people."""
         return self.model.judged_by(point)
+
+    def restated(self, scenario: Scenario, point: Point) -> Scenario:
+        """See `DiagnosisModel`."""
+        return changed(scenario, self.model.changes_at(point.lasting, None))
 
     def amend(self, scenario: Scenario, point: Point, folder: Path) -> Path:
         """See `diagnosis.amend.closed_loop.amend_closed_loop`."""

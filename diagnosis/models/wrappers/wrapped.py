@@ -218,6 +218,10 @@ class WrappedModel:
         """See `DiagnosisModel`."""
         return self.inner.judged_by(self.inside(point))
 
+    def restated(self, scenario: Scenario, point: Point) -> Scenario | None:
+        """See `DiagnosisModel`."""
+        return self.inner.restated(scenario, self.inside(point))
+
     def amend(self, scenario: Scenario, point: Point, folder: Path) -> Path | None:
         """See `DiagnosisModel`."""
         return self.inner.amend(scenario, self.inside(point), folder)
