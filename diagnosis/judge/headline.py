@@ -120,7 +120,7 @@ def _of_noise(adequacy: Adequacy) -> list[str]:
     """What the agreement of a model takes for granted of the noise: that it is larger than stated, or lasts."""
     told = []
     if adequacy.louder:
-        times = listed([f"{number(n, 2)} times ({clean(name)})" for name, n in adequacy.louder.items()], TOLD)
+        times = listed([f"{number(n)} times ({clean(name)})" for name, n in adequacy.louder.items()], TOLD)
         which = "readings" if adequacy.is_rejected else "training readings"
         told.append(
             f"By the noise that is stated the {which} would reject the model: they scatter from one to the next by "

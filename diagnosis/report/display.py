@@ -18,6 +18,8 @@ _DIFFERENCES = {"A": (1e3, "mA"), "V": (1e3, "mV"), "W": (1e3, "mW"), "m": (1e3,
 _SMALL = {"A": (1e3, "mA"), "W": (1e3, "mW"), "m": (1e3, "mm")}
 #: 0 degC [K].
 _KELVIN = 273.15
+#: Share of the end of an interval below which its begin is 0: a clock that is a hair off is no begin.
+NOTHING = 1e-4
 UNKNOWN = "\N{EN DASH}"
 
 
@@ -265,10 +267,18 @@ def percent(probability: float) -> str:
 
 
 def span(begin: float, end: float) -> str:
-    """An interval of time, or an instant."""
-    if begin == end:
-        return f"at {number(begin)} s"
-    return f"{number(begin)} to {number(end)} s"
+    """An interval of time, or an instant.
+
+    >>> span(2.4e-4, 198000.0), span(39999.8, 40000.0), span(0.5, 2.0)
+    ('0 to 198000 s', 'at 40000 s', '0.500 to 2.00 s')
+    """
+    first, last = ends(begin, end)
+    return f"{first} to {last} s" if first != last else f"at {last} s"
+
+
+def ends(begin: float, end: float) -> tuple[str, str]:
+    """Both ends of an interval as numbers; a begin that is next to nothing of the end is 0."""
+    return number(begin if abs(begin) >= NOTHING * abs(end) else 0.0), number(end)
 
 
 def duration(seconds: float) -> str:

@@ -10,7 +10,7 @@ from cosim.unit.protocol import Array
 from diagnosis.judge.diagnosis import Diagnosis, Estimate
 from diagnosis.recording.recording import Recording
 from diagnosis.report import display
-from diagnosis.report.display import interval, number, user_scale, user_unit
+from diagnosis.report.display import ends, interval, number, user_scale, user_unit
 from diagnosis.report.fits import plain_channel
 
 #: Sizes of a number that are read without an exponent. What falls outside in the user's unit and not in SI stays in SI:
@@ -131,9 +131,8 @@ class Units:
     def span(self, begin: float, end: float) -> str:
         """An interval of time or an instant, on the clock of a recording."""
         scale = self.scale(end, "s")
-        if begin == end:
-            return f"at {scale.text(begin)}"
-        return f"{number(scale(begin))} to {scale.text(end)}"
+        first, last = ends(scale(begin), scale(end))
+        return f"{first} to {scale.text(end)}" if first != last else f"at {scale.text(end)}"
 
 
 #: Where nothing is known of what the user wrote.
