@@ -32,7 +32,7 @@ from diagnosis.judge.doubts import (
     doubted,
     of_another_experiment,
     without_explained_starts,
-    without_times_that_fit,
+    without_what_fits,
 )
 from diagnosis.judge.findings import findings
 from diagnosis.judge.form import companions, share_at_place
@@ -215,7 +215,7 @@ def diagnose(
     titles = [r.title for r in training]
     found = doubted(findings(model, outcome, accepted, titles, units, judge), doubts)
     found = within_rows(found, scenario, training)
-    doubts = without_times_that_fit(without_explained_starts(doubts, found), fits, found)
+    doubts = without_what_fits(without_explained_starts(doubts, found), fits, found)
     tried = searched(model, scenario, options.without, outcome.base.point)
     if was_left():
         tried = replace(tried, untried=(*tried.untried, _TIME_IS_OVER))

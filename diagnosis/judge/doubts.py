@@ -37,6 +37,8 @@ OF_A_STRETCH = ("sensor", "input", "range")
 MET = 1.5
 #: Kind of doubt about a recording that the scenario misses while it meets the others, and kinds about its times.
 ODD, OF_TIMES = "odd one out", ("clock", "dead time")
+#: Kinds of doubts that a model which meets the recording in the end takes away.
+_OF_FIT = (*OF_TIMES, ODD)
 
 
 def is_of_another_experiment(doubt: Doubt) -> bool:
@@ -139,13 +141,14 @@ def without_explained_starts(doubts: Sequence[Doubt], findings: Sequence[Finding
     return tuple(d for d in doubts if d.kind != "start" or not any(is_explained(d, f) for f in sensors))
 
 
-def without_times_that_fit(
+def without_what_fits(
     doubts: Sequence[Doubt], fits: Sequence[ChannelFit], findings: Sequence[Finding]
 ) -> tuple[Doubt, ...]:
-    """Doubts without late responses of recordings that the final model meets within noise, in which no finding acts.
+    """Doubts without those about times, and that a recording stands out, where the final model meets it within noise.
 
-    The check compares with the scenario as it is: numbers that are off turn the phase of what swings, as a clock does.
-    A law that was found may be what comes late.
+    The check compares with the scenario as it is, or with numbers that the other recordings determine: numbers that are
+    off turn the phase of what swings, as a clock does, and what the others do not determine shows in one of them alone.
+    Where a finding acts, it may be what comes late or stands out.
 
     Args:
         doubts: About all recordings.
@@ -156,7 +159,7 @@ def without_times_that_fit(
     acting = {r for r in (f.recording for f in fits) if any(_acts_in(r, f) for f in accepted)}
     missed = {f.recording for f in fits if not f.chi_square["after"] <= MET}
     met = {f.recording for f in fits} - missed - acting
-    return tuple(d for d in doubts if d.is_serious or d.is_far or d.kind not in OF_TIMES or d.recording not in met)
+    return tuple(d for d in doubts if d.is_serious or d.is_far or d.kind not in _OF_FIT or d.recording not in met)
 
 
 def _acts_in(recording: str, finding: Finding) -> bool:

@@ -6,13 +6,14 @@ from dataclasses import replace
 
 import pytest
 
-from diagnosis.judge.diagnosis import Doubt
+from diagnosis.judge.diagnosis import ChannelFit, Doubt
 from diagnosis.judge.doubts import (
     MANY,
     doubted,
     is_of_another_experiment,
     of_another_experiment,
     without_consequences,
+    without_what_fits,
 )
 from tests.diagnosis.report_examples import CONTACT, LAG
 
@@ -42,6 +43,20 @@ def test_physics_stands_beside_a_fault_that_was_found_too() -> None:
     assert physics.is_accepted
     other = replace(STEP, recording="tuesday")
     assert [f.is_accepted for f in doubted([FAULT, CONTACT], [other])] == [True, False]
+
+
+@pytest.mark.parametrize("kind", ["odd one out", "clock"])
+def test_a_recording_that_the_final_model_meets_does_not_stand_out(kind: str) -> None:
+    """What it is compared with before the search are numbers that it did not help to determine."""
+    doubt = replace(STEP, kind=kind, is_serious=False)
+    by_after = {"before": 90.0, "recalibrated": 1.0}
+    fits = [ChannelFit("monday", True, "coil[1,2].temperature", "K", {}, by_after | {"after": 1.0}, {}, samples=100)]
+    assert without_what_fits([doubt], fits, []) == ()
+    assert without_what_fits([replace(doubt, is_serious=True)], fits, []) != ()
+    assert without_what_fits([doubt], fits, [FAULT]) == (doubt,)  # what acts there may be what stands out
+    assert without_what_fits([doubt], fits, [replace(FAULT, recording="tuesday")]) == ()
+    missed = [replace(fits[0], chi_square=by_after | {"after": 2.0})]
+    assert without_what_fits([doubt], missed, []) == (doubt,)
 
 
 def test_a_note_changes_nothing() -> None:
