@@ -25,6 +25,10 @@ if TYPE_CHECKING:
     from diagnosis.judge.diagnosis import Diagnosis
     from diagnosis.recording.recording import Recording
 
+#: How long further effects are looked for where nobody says how long. Where no law explains the readings a search takes
+#: longest, up to an hour, and its answer is that nothing was found (docs/decisions/0035-a-usual-time.md).
+USUAL_TIME = "10 min"
+
 
 def diagnose(
     scenario: Annotated[str, typer.Argument(help="A scenario file or name: the model as it is.")],
@@ -64,7 +68,10 @@ def diagnose(
     ] = None,
     stop_after: Annotated[
         str | None,
-        typer.Option(help="Answer with what is found by then: `10 min`. Not of fabrics and pendulums, which resume."),
+        typer.Option(
+            help=f"Answer with what is found by then: a time, or `never`; {USUAL_TIME} where nothing is said. Not of "
+            "fabrics and pendulums, which resume.",
+        ),
     ] = None,
 ) -> None:
     """Find out what a model leaves out, by recordings of the real thing.
@@ -112,7 +119,8 @@ def diagnose(
                 base, [load_recording(p) for p in recording], [load_recording(p) for p in held_out]
             )
             gc.freeze()  # modules and recordings stay to the end: they need not be looked through again and again
-            with watched(Steps(display.stage, most=parse_time(stop_after))) as steps:
+            time = parse_time(stop_after or USUAL_TIME)
+            with watched(Steps(display.stage, most=time, is_usual=stop_after is None)) as steps:
                 with first_interrupt(lambda: _is_stopped(steps)):
                     found = find(base, training, judges, Settings(level=level, seed=seed), steps, options)
                 steps("writing" if brief else "writing the amended model and the report")

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from cosim.compute.batch import Batches
-from cosim.compute.steps import TimeIsOver, is_limited, may_be_left, was_left
+from cosim.compute.steps import TimeIsOver, is_limited, may_be_left, was_left, without_usual_time
 from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from diagnosis.candidates.candidate import CandidateTerm
@@ -81,7 +81,10 @@ TRIALS = 24
 
 
 #: What was not tried where the time was over.
-_TIME_IS_OVER = "stopped by `--stop-after`, Ctrl-C or SIGTERM: no further effect or other description was looked for"
+_TIME_IS_OVER = (
+    "stopped by `--stop-after` (10 min where nothing is said), Ctrl-C or SIGTERM: no further effect or other "
+    "description was looked for; `--stop-after never` takes the time that it needs"
+)
 _STOPPED = f"{_TIME_IS_OVER[0].upper()}{_TIME_IS_OVER[1:]}."
 
 
@@ -171,12 +174,7 @@ def diagnose(
     both = [with_ends(one.recording, seen) for one in compared]
     training, held_out = both[: len(training)], both[len(training) :]
     model, judge = models_of(scenario, training, held_out, known, options.threads, options.without, options.batches)
-    if not options.batches.place.is_local and not uses_batches(model):
-        what = "compiled code simulates this scenario on this machine: a cluster has nothing to do"
-        raise InputError("--cluster", "", what, "leave `--cluster` out; `--jobs` says how many cores are used")
-    if is_limited() and uses_batches(model):
-        what = "runs of the co-simulation are interrupted by Ctrl-C, and kept"
-        raise InputError("--stop-after", "", what, "leave it out; `--resume` goes on from the runs that were made")
+    _refuse_what_does_not_serve(uses_batches(model), options)
     doubts = _doubts(seen, compared, model, judge, options)
     if options.is_checked and of_another_experiment(doubts):
         seconds = clock.perf_counter() - begin
@@ -270,6 +268,23 @@ def diagnose(
         channel_units=dict(units.channels),
     )
     return Result(diagnosis, model, judge, points, carried)
+
+
+def _refuse_what_does_not_serve(has_batches: bool, options: Options) -> None:
+    """Refuse a cluster or a time that would do nothing for such a model.
+
+    Args:
+        has_batches: Whether the co-simulation itself makes its runs, in batches.
+        options: What it works with.
+    """
+    if not has_batches and not options.batches.place.is_local:
+        what = "compiled code simulates this scenario on this machine: a cluster has nothing to do"
+        raise InputError("--cluster", "", what, "leave `--cluster` out; `--jobs` says how many cores are used")
+    if has_batches and is_limited():
+        what = "runs of the co-simulation are interrupted by Ctrl-C, and kept"
+        raise InputError("--stop-after", "", what, "leave it out; `--resume` goes on from the runs that were made")
+    if has_batches:
+        without_usual_time()
 
 
 def _by_other_ways(

@@ -63,13 +63,18 @@ class Steps:
         tell: Told a line.
         now: Time [s]; for tests.
         most: Time after which what may be left out is left out [s].
+        is_usual: Whether nobody asked for that time: what cannot end then goes on; see `without_usual_time`.
     """
 
     def __init__(
-        self, tell: Callable[[str], None], now: Callable[[], float] = clock.monotonic, most: float = math.inf
+        self,
+        tell: Callable[[str], None],
+        now: Callable[[], float] = clock.monotonic,
+        most: float = math.inf,
+        is_usual: bool = False,
     ) -> None:
         self._tell, self._now = tell, now
-        self._end = now() + most
+        self._end, self._is_usual = now() + most, is_usual
         self.optional = 0
         self.has_left = False
         self._stage = ""
@@ -80,8 +85,13 @@ class Steps:
 
     @property
     def has_end(self) -> bool:
-        """Whether a time was given after which what may be left out is left out."""
-        return self._end < math.inf
+        """Whether a time was asked for after which what may be left out is left out."""
+        return self._end < math.inf and not self._is_usual
+
+    def without_usual_time(self) -> None:
+        """Go on for as long as it takes, unless somebody asked for a time."""
+        if self._is_usual:
+            self._end = math.inf
 
     def stop(self) -> bool:
         """Leave out what may be left out from now on.
@@ -205,9 +215,16 @@ def may_be_left(is_so: bool = True) -> Iterator[None]:
 
 
 def is_limited() -> bool:
-    """Whether a time was given after which what may be left out is left out."""
+    """Whether a time was asked for after which what may be left out is left out."""
     steps = _WATCHED.get()
     return steps is not None and steps.has_end
+
+
+def without_usual_time() -> None:
+    """See `Steps.without_usual_time`."""
+    steps = _WATCHED.get()
+    if steps is not None:
+        steps.without_usual_time()
 
 
 def was_left() -> bool:

@@ -43,18 +43,18 @@ def parse_limits(texts: Sequence[str], scenario: Scenario) -> dict[str, float]:
     return found
 
 
-def parse_time(text: str | None) -> float:
-    """A time that is given to a diagnosis [s]; without one it has all.
+def parse_time(text: str) -> float:
+    """A time that is given to a diagnosis [s]; `never`: it has all.
 
     Raises:
         InputError: It is no time, or none at all.
 
-    >>> parse_time("10 min"), parse_time(None)
+    >>> parse_time("10 min"), parse_time("never")
     (600.0, inf)
     """
-    if text is None:
+    if text == "never":
         return math.inf
-    remedy = "give a time, as `10 min`"
+    remedy = "give a time, as `10 min`, or `never`"
     try:
         seconds = PhysicalValue.parse(text).to("s")
     except ValueError as error:

@@ -9,12 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from cosim.compute.steps import Steps, TimeIsOver, counted, may_be_left, was_left, watched
+from cosim.compute.steps import Steps, TimeIsOver, counted, may_be_left, was_left, watched, without_usual_time
 from cosim.interrupt import first_interrupt
 from cosim.scenario import load_scenario
 from cosim.unit.errors import InputError
 from diagnosis.command import _is_stopped
-from diagnosis.diagnose import _TIME_IS_OVER, Options, diagnose
+from diagnosis.diagnose import _TIME_IS_OVER, Options, _refuse_what_does_not_serve, diagnose
 from diagnosis.experiment.limits import parse_time
 from diagnosis.judge.diagnosis import Diagnosis, Verdict
 from diagnosis.recording.recording import load_recording
@@ -64,7 +64,7 @@ def test_a_diagnosis_without_any_time_answers_by_its_first_effect_and_says_that_
     stages: list[str] = []
     found = answer(tmp_path, 0.0, stages)
     assert _TIME_IS_OVER in found.searched.untried
-    assert found.notes[-1].startswith("Stopped by `--stop-after`, Ctrl-C or SIGTERM: ")
+    assert found.notes[-1].startswith("Stopped by `--stop-after` (10 min where nothing is said), Ctrl-C or SIGTERM: ")
     assert found.verdict in (Verdict.CANNOT_TELL, Verdict.UNNAMED_PHYSICS, Verdict.MISSING_PHYSICS)
     assert found.adequacy is not None
     assert found.adequacy.chi_square["after"] <= found.adequacy.chi_square["recalibrated"]
@@ -101,6 +101,32 @@ def test_an_interrupted_search_answers_with_what_it_has(tmp_path: Path, capfd: p
     assert found.diagnosis.adequacy is not None
     assert not any(t.startswith("looking for a third effect") for t in told)
     assert "Ctrl-C again gives it up" in capfd.readouterr().err
+
+
+def test_a_usual_time_ends_what_may_be_left_and_not_what_goes_on_without_it() -> None:
+    """Of fabrics and pendulums runs are kept: nobody asked for an end, and none is refused."""
+    with watched(Steps(lambda text: None, most=0.0, is_usual=True)) as steps:
+        assert not steps.has_end
+        with pytest.raises(TimeIsOver), may_be_left():
+            list(counted([1, 2], "optional"))
+        without_usual_time()
+        with may_be_left():
+            assert list(counted([1, 2], "optional")) == [1, 2]
+    with watched(Steps(lambda text: None, most=0.0)) as steps:
+        assert steps.has_end
+        without_usual_time()
+        with pytest.raises(TimeIsOver), may_be_left():
+            list(counted([1, 2], "asked for"))
+
+
+def test_what_runs_in_batches_goes_on_beyond_the_usual_time() -> None:
+    with watched(Steps(lambda text: None, most=0.0, is_usual=True)), may_be_left():
+        _refuse_what_does_not_serve(True, Options())
+        assert list(counted([1, 2], "optional")) == [1, 2]
+    with watched(Steps(lambda text: None, most=0.0, is_usual=True)), may_be_left():
+        _refuse_what_does_not_serve(False, Options())
+        with pytest.raises(TimeIsOver):
+            list(counted([1, 2], "optional"))
 
 
 @pytest.mark.parametrize("text", ["0 s", "-1 min", "soon", "3 m", "10"])
