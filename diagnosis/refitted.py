@@ -34,7 +34,7 @@ class Refitted:
     @property
     def is_of_use(self) -> bool:
         """Whether there are others beside each recording, numbers to fit, and time for it: a fit takes no minutes."""
-        return len(self._compared) > OTHERS and self._model.can_be_searched_again and bool(self._model.parameters)
+        return len(self._compared) > OTHERS and self._model.can_be_refitted and bool(self._model.parameters)
 
     @property
     def titles(self) -> list[str]:

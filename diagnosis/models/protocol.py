@@ -283,6 +283,11 @@ class DiagnosisModel(Protocol):
         ...
 
     @property
+    def can_be_refitted(self) -> bool:
+        """Whether a few fits of its numbers alone take seconds."""
+        ...
+
+    @property
     def can_be_fitted(self) -> bool:
         """Whether it has residuals and derivatives; else it predicts alone, and each prediction takes minutes."""
         ...
@@ -487,6 +492,11 @@ class ModelBase:
     def can_be_searched_again(self) -> bool:
         """False."""
         return False
+
+    @property
+    def can_be_refitted(self) -> bool:
+        """As far as it can be searched again."""
+        return self.can_be_searched_again
 
     @property
     def can_be_fitted(self) -> bool:

@@ -107,6 +107,11 @@ class CosimModel:
         """Whether another search takes a minute or two; see `diagnosis.ways`."""
         return False
 
+    @property
+    def can_be_refitted(self) -> bool:
+        """Whether a few fits of the numbers alone take seconds."""
+        return False
+
     def __init__(
         self,
         scenario: Scenario,

@@ -193,7 +193,7 @@ def test_it_is_not_asked_of_two_recordings_without_judges_or_of_what_is_known(tm
 
 def test_a_fit_that_takes_minutes_is_not_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     refitted = _refitted(tmp_path, _spoiled(tmp_path, 2, _drifting))
-    monkeypatch.setattr(type(refitted._model), "can_be_searched_again", property(lambda self: False))
+    monkeypatch.setattr(type(refitted._model), "can_be_refitted", property(lambda self: False))
     assert apart_once_refitted(refitted) == []
 
 

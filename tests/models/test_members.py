@@ -25,6 +25,7 @@ OWN = {
 HANDED_ON = (
     "is_fast",
     "can_be_searched_again",
+    "can_be_refitted",
     "can_be_fitted",
     "has_scatter",
     "has_ridges",

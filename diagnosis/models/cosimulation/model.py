@@ -160,6 +160,11 @@ class ClosedLoopModel(ModelBase):
         """See `CosimModel`."""
         return self.model.can_be_searched_again
 
+    @property
+    def can_be_refitted(self) -> bool:
+        """See `CosimModel`."""
+        return self.model.can_be_refitted
+
     def refine(self, point: Point) -> bool:
         """See `diagnosis.search.problem.refined`."""
         return self.model.refine(point)

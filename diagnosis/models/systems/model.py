@@ -48,6 +48,8 @@ AGREED = 1e-3
 COMPARED = 2000
 #: Steps of the integration over all recordings from which another search would take minutes.
 SEARCHED_AGAIN = 30_000
+#: The same up to which the numbers alone are fitted a few times more: some hundred simulations in place of thousands.
+REFITTED = 300_000
 #: Steps of the integration over a recording from which an input that stayed is not looked for: that takes hundreds of
 #: simulations for each, of some 0.1 s then.
 HELD_STEPS = 200_000
@@ -122,7 +124,17 @@ class SystemModel(CompiledModel):
     @property
     def can_be_searched_again(self) -> bool:
         """Whether its simulations have not many steps."""
-        return self._substeps * sum(fast.steps for fast in self._fast) < SEARCHED_AGAIN
+        return self._steps_of_all < SEARCHED_AGAIN
+
+    @property
+    def can_be_refitted(self) -> bool:
+        """See `CosimModel`."""
+        return self._steps_of_all < REFITTED
+
+    @property
+    def _steps_of_all(self) -> int:
+        """Steps of the integration of all recordings."""
+        return self._substeps * sum(fast.steps for fast in self._fast)
 
     def terms(self) -> list[Term]:
         """Every law that may be missing."""

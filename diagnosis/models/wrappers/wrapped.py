@@ -125,6 +125,11 @@ class WrappedModel:
         return self.inner.can_be_searched_again
 
     @property
+    def can_be_refitted(self) -> bool:
+        """See `DiagnosisModel`."""
+        return self.inner.can_be_refitted
+
+    @property
     def can_be_fitted(self) -> bool:
         """See `DiagnosisModel`."""
         return self.inner.can_be_fitted
