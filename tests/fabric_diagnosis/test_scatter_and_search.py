@@ -204,3 +204,41 @@ def test_fabrics_that_scatter_are_told_apart_by_no_less_than_that() -> None:
     told = [np.std(found.shifts(members(6, 50 + n), slope, Point(np.zeros(1)))) for n in range(20)]
     alone = [found.shifts(members(2, 90 + n), slope, Point(np.zeros(1)))[0] for n in range(60)]
     assert np.mean(told) == pytest.approx(np.std(alone) / np.sqrt(2.0) * np.sqrt(6.0 / 5.0), rel=0.35)
+
+
+def _at_other_strengths(terms: dict[Term, tuple[float, ...]], misfits: dict[float, list[float]]) -> tuple[Any, ...]:
+    """What `at_other_strengths` gives of such an explanation, what was searched, and strengths that the surface got."""
+    fitted = SimpleNamespace(best=SimpleNamespace(fit=SimpleNamespace(point=Point(np.zeros(1), terms))))
+    added: list[float] = []
+    plan: Any = object.__new__(_Plan)
+    plan.model = SimpleNamespace(laws=lambda: TERMS, own_point=lambda point: point, network_point=lambda point: point)
+    plan.surface = SimpleNamespace(add=lambda term, size, *rest: added.append(size))
+    plan._network_point = Point(np.zeros(0))
+    known = {size: np.array(values) for size, values in misfits.items()}
+    runs = {(TERMS[0], size): np.full((6, 3), size) for size, v in known.items() if np.isfinite(v).all()}
+    plan._at_other_strengths = lambda wanted, point: ({TERMS[0]: known}, runs)
+    plan.search = lambda settings: "searched"
+    plan.settled = lambda outcome, settings: f"{outcome} and settled"
+    found = plan.at_other_strengths(fitted, Settings())
+    return (found if found is not fitted else "as it was"), sorted(added)
+
+
+def test_a_strength_that_meets_the_recordings_better_is_searched_with_before_a_second_effect() -> None:
+    """A spring that is too weak to open its link: 0.25 shuts it in some runs, and 1.0 in all of them."""
+    at = {0.0: [460.0, 470.0], 0.25: [187.0, 189.0, 190.0], 0.5: [186.0, 190.0, 180.0], 1.0: [152.0, 151.0, 155.0]}
+    assert _at_other_strengths({TERMS[0]: (0.25,)}, at) == ("searched and settled", [0.25, 0.5, 1.0])
+
+
+@pytest.mark.parametrize(
+    ("terms", "at"),
+    [
+        ({TERMS[0]: (0.25,), TERMS[1]: (1.0,)}, {0.25: [187.0, 189.0], 1.0: [152.0, 151.0]}),
+        ({TERMS[0]: (0.25,)}, {0.25: [187.0, 160.0, 190.0], 1.0: [152.0, 190.0, 175.0]}),
+        ({TERMS[0]: (0.25,)}, {0.25: [np.inf], 1.0: [152.0, 151.0]}),
+        ({TERMS[0]: (0.0,)}, {0.25: [187.0, 189.0], 1.0: [152.0, 151.0]}),
+        ({term("camera"): (0.25,)}, {0.25: [187.0, 189.0], 1.0: [152.0, 151.0]}),
+    ],
+    ids=["two effects", "within scatter", "one that stops", "no strength", "of a camera"],
+)
+def test_no_other_strength_is_searched_with(terms: dict[Term, tuple[float, ...]], at: dict[float, list[float]]) -> None:
+    assert _at_other_strengths(terms, at) == ("as it was", [])

@@ -120,6 +120,8 @@ def search_fabric(
         outcome = plan.search(one)
     outcome = plan.settled(outcome, one)
     if outcome.best.terms:
+        outcome = plan.at_other_strengths(outcome, one)
+    if outcome.best.terms:
         more = replace(own, floor=max(own.floor, plan.margin_beside()))
         outcome = plan.settled(plan.search(more), more)
         plan.bound_strengths(outcome)
@@ -444,6 +446,29 @@ class _Plan:
             self.surface.add(strongest, point.terms[strongest][0], corrected, point.base, len(found))
         self._scatter_of(members)
 
+    def at_other_strengths(self, outcome: Outcome, settings: Settings) -> Outcome:
+        """The outcome, or that of a search that knows the one effect at strengths which meet the recordings better.
+
+        Lines between few strengths have their least at a knot: springs that are so weak that their link stays shut were
+        fitted by as much as just shuts it, and another effect beside them filled what was left.
+        """
+        model, laws = self.model, set(self.model.laws())
+        fitted = outcome.best.fit.point
+        point = model.own_point(fitted)
+        if len(point.terms) != 1:
+            return outcome
+        ((term, (strength, *_)),) = point.terms.items()
+        if term not in laws or strength == 0.0:
+            return outcome
+        self._network_point = model.network_point(fitted)
+        known, runs = self._at_other_strengths([term], point)
+        if _best_known(strength, known[term]) == strength:
+            return outcome
+        for (_, size), found in runs.items():
+            if size:
+                self.surface.add(term, size, found.mean(axis=0), point.base, len(found))
+        return self.settled(self.search(settings), settings)
+
     def bound_strengths(self, outcome: Outcome) -> None:
         """Simulate every effect that was found at other strengths: between which it meets the recordings as well."""
         model, laws = self.model, set(self.model.laws())
@@ -486,11 +511,18 @@ class _Plan:
         strength = point.terms[term][0]
         if not np.isfinite(misfits[strength]).all():
             return
-        best = best_size({s: float(np.mean(v)) for s, v in misfits.items()})
-        best = best if best != strength and is_better(best, strength, misfits) else strength
+        best = _best_known(strength, misfits)
         shifts = self.model.prepared.shifts(runs[term, best], self.surface.slope(term, best), point)
         low, high = widened(interval_of(best, misfits, term.parameters[0]), best, shifts, term.parameters[0])
         self.model.take_interval(term, (min(low, strength), max(high, strength)))
+
+
+def _best_known(strength: float, misfits: Mapping[float, Array]) -> float:
+    """The strength that meets the recordings best by more than errors of means; the fitted one where none does."""
+    if not np.isfinite(misfits[strength]).all():
+        return strength
+    best = best_size({s: float(np.mean(v)) for s, v in misfits.items()})
+    return best if best != strength and is_better(best, strength, misfits) else strength
 
 
 def _largest_gain(outcome: Outcome) -> float:
