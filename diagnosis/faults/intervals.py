@@ -18,6 +18,8 @@ from diagnosis.search.score import LEAST_VISIBLE
 #: Scatter, in deviations of the noise, up to which the readings of a sensor stand still. One that holds a value repeats
 #: it; where readings scatter as noise does, a sensor that works reads something that rests.
 STILL = 0.25
+#: Stretches of equal readings whose ends are tried, and samples on either side of an end that are.
+LONGEST_RUNS, MOST_NEAR = 16, 200
 
 
 @dataclass(frozen=True)
@@ -189,6 +191,9 @@ def best_constant(
 ) -> tuple[int, int, float] | None:
     """The interval in which a sensor that holds one value explains most: first sample, sample after the last, gain.
 
+    It is sought between pieces and the ends of the longest stretches of equal readings; around the best one every
+    sample is tried: one that ends with a piece would stay behind an offset or a gain of the same readings.
+
     Args:
         residuals: As they are, shape (samples,).
         readings: Measured values in deviations of the noise, shape (samples,).
@@ -204,17 +209,36 @@ def best_constant(
     level = readings - np.average(readings, weights=weight)  # the variance of large numbers would be rounding
     size = np.abs(residuals)
     misfit = np.where(size > HUBER, 2.0 * HUBER * size - HUBER**2, size**2)
-    cuts = cuts_of(len(residuals), pieces)
-    first, last = np.triu_indices(len(cuts), 1)
-    sums = [
-        np.concatenate([[0.0], np.cumsum(v * weight)])[cuts]
+    whole = [
+        np.concatenate([[0.0], np.cumsum(v * weight)])
         for v in (misfit, level**2, level, np.ones(len(level)), *_moments(readings if own is None else own, weight))
     ]
-    lost, square, total, count, squares, values = (s[last] - s[first] for s in sums)
-    scatter = squares / np.maximum(count, 1.0) - (values / np.maximum(count, 1.0)) ** 2
-    seen = (count >= fewest) & (count < sums[3][-1]) & (scatter < STILL**2)
-    if not seen.any():
+
+    def between(cuts: AnyArray) -> tuple[int, int, float] | None:
+        first, last = np.triu_indices(len(cuts), 1)
+        lost, square, total, count, squares, values = (s[cuts][last] - s[cuts][first] for s in whole)
+        scatter = squares / np.maximum(count, 1.0) - (values / np.maximum(count, 1.0)) ** 2
+        seen = (count >= fewest) & (count < whole[3][-1]) & (scatter < STILL**2)
+        if not seen.any():
+            return None
+        gains = np.where(seen, lost - np.maximum(square - total**2 / np.maximum(count, 1.0), 0.0), -np.inf)
+        best = int(np.argmax(gains))
+        return int(cuts[first[best]]), int(cuts[last[best]]), float(gains[best])
+
+    count = len(residuals)
+    cuts = np.unique([*cuts_of(count, pieces), *ends_of_runs(readings, fewest).ravel()])
+    found = between(cuts)
+    if found is None:
         return None
-    gains = np.where(seen, lost - np.maximum(square - total**2 / np.maximum(count, 1.0), 0.0), -np.inf)
-    best = int(np.argmax(gains))
-    return int(cuts[first[best]]), int(cuts[last[best]]), float(gains[best])
+    apart = min(-(-count // pieces), MOST_NEAR)
+    near = [np.arange(max(end - apart, 0), min(end + apart, count) + 1) for end in found[:2]]
+    return between(np.unique(np.concatenate([*near])))
+
+
+def ends_of_runs(readings: Array, fewest: int) -> AnyArray:
+    """First sample and sample after the last of the longest stretches of so many equal readings, shape (2, runs)."""
+    edges = np.concatenate([[0], np.flatnonzero(np.diff(readings)) + 1, [len(readings)]])
+    lengths = np.diff(edges)
+    longest = np.argsort(-lengths, kind="stable")[:LONGEST_RUNS]
+    longest = longest[lengths[longest] >= fewest]
+    return np.stack([edges[longest], edges[longest + 1]])

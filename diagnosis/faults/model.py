@@ -7,10 +7,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 
 from cosim.unit.protocol import Array
+from diagnosis.faults.intervals import ends_of_runs
 from diagnosis.faults.law import (
     AGAIN,
     DRIFT,
     FEWEST,
+    FEWEST_EQUAL,
     HELD,
     LATE,
     LONGEST_LAG,
@@ -236,6 +238,26 @@ class FaultyModel(WrappedModel):
                 if a < b and (a, b) not in known:
                     known.add((a, b))
                     yield point.plus(term, (strength, float(edges[a]), float(edges[b])))
+            yield from self._standing_still(point, term, (places[0], places[1]))
+
+    def _standing_still(self, point: Point, term: Term, interval: tuple[int, int]) -> Iterator[Point]:
+        """The same with a sensor that repeats one value in the place of another fault of it that acts there.
+
+        An offset or a gain over two such stretches at once explains more than one of them that stands still, and is
+        found first.
+        """
+        readings = self.sensor_terms.get(term)
+        if readings is None or term.identifier == STUCK.identifier:
+            return
+        still = fault_term(STUCK, term.place, WHOLLY, readings.span, readings.recording)
+        if still not in self.sensor_terms or still in point.terms:
+            return
+        ends = ends_of_runs(readings.measured, FEWEST_EQUAL)
+        for first, last in zip(ends[0].tolist(), ends[1].tolist()):
+            both = min(last, interval[1]) - max(first, interval[0])
+            if both > 0.5 * (last - first):
+                values = (1.0, float(readings.edges[first]), float(readings.edges[last]))
+                yield point.without(term).plus(still, values)
 
     def _edges(self, term: Term) -> Array:
         readings = self.sensor_terms.get(term)

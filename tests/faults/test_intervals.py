@@ -132,3 +132,20 @@ def test_a_sensor_that_works_and_reads_what_rests_does_not_stand_still():
     found = best_constant(residuals, readings, 8, every, COUNT)
     assert found is not None
     assert found[0] >= COUNT // 2
+
+
+def test_a_sensor_that_stands_still_is_found_to_a_sample_between_pieces():
+    """From sample 251 to 374 of 900: the pieces of 14 samples would leave 13 of them to a gain of the same readings."""
+    random = np.random.default_rng(6)
+    truth = 300.0 * np.sin(np.arange(900) / 40.0)
+    readings = np.round(truth + random.standard_normal(900))
+    readings[251:374] = readings[251]
+    every = np.ones(900, dtype=bool)
+    found = best_constant(readings - truth, readings, 8, every, 64)
+    assert found is not None
+    assert found[:2] == (251, 374)
+    readings[251:374] += 0.05 * random.standard_normal(123)  # no two are equal
+    found = best_constant(readings - truth, readings, 8, every, 64)
+    assert found is not None
+    assert found[0] == pytest.approx(251, abs=1)
+    assert found[1] == pytest.approx(374, abs=1)

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from cosim.scenario import load_scenario
@@ -76,6 +77,24 @@ def test_an_interval_that_ends_between_two_strokes_is_tried_up_to_the_end_of_the
     assert best_end == max(end for _, end in costs) > STEP * 360
     nearby = [c for (_, end), c in costs.items() if end < STEP * 300]
     assert min(nearby) > min(costs.values()) + 100.0
+
+
+def test_a_sensor_that_repeats_a_value_is_tried_as_one_that_stands_still(tmp_path: Path) -> None:
+    """A gain over two such stretches was found first, and stayed."""
+    path = _recording(tmp_path, 0, None)
+    table = pd.read_csv(path / "data.csv")
+    table.loc[100:180, "h"] = table.loc[100, "h"]
+    table.to_csv(path / "data.csv", index=False)
+    tank(tmp_path, "200 s", "500 ms")
+    model = with_faults(model_of(load_scenario(str(tmp_path / "scenario.yaml")), [load_recording(path)], catalogue()))
+    (gain,) = [t for t in model.faults() if t.identifier == "sensor_gain_in_interval" and "again" not in t.place]
+    (still,) = [t for t in model.faults() if t.identifier == "sensor_stuck_in_interval" and "again" not in t.place]
+    point = Point(np.zeros(len(model.parameters)), {gain: (-0.2, STEP * 105, STEP * 200)})
+    (other,) = [p for p in model.near_intervals(point) if still in p.terms]
+    assert gain not in other.terms
+    assert other.terms[still] == (1.0, pytest.approx(STEP * 99.5), pytest.approx(STEP * 180.5))
+    assert not any(still in p.terms for p in model.near_intervals(point.plus(gain, (-0.2, STEP * 10, STEP * 90))))
+    assert not any(gain in p.terms for p in model.near_intervals(other))
 
 
 def test_ends_that_change_nothing_are_as_good_and_the_interval_holds_them(tmp_path: Path) -> None:
