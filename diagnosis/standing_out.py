@@ -57,7 +57,8 @@ def apart_once_refitted(refitted: Refitted, known: Collection[str] = ()) -> list
         every = refitted.by_others(title) if title in refitted.fitted else refitted.foreseen
         told = _apart(*_parted(every, number)) if every else None
         if told is not None:
-            found.append(_of_rig(refitted, number) or told if told.remedy == _RIG else told)
+            doubt, is_of_sensor = told
+            found.append(doubt if is_of_sensor else _of_rig(refitted, number) or doubt)
     return found
 
 
@@ -89,12 +90,13 @@ def _of_rig(refitted: Refitted, number: int) -> Doubt | None:
 
 def _beside_fitted(doubt: Doubt, also: str, is_serious: bool) -> Doubt:
     """A doubt of the check, told of the scenario with fitted numbers and not of the scenario as it is."""
-    text = f"{_FITTED}, {doubt.statement.replace(' as it is', '')}{also}"
-    return replace(doubt, statement=text, is_serious=is_serious)
+    return replace(doubt, statement=f"{_FITTED}, {doubt.statement}{also}", is_serious=is_serious)
 
 
-def _apart(one: Compared, others: Sequence[Compared]) -> Doubt | None:
-    """A doubt about a recording beside others that are met; None where it does not stand out.
+def _apart(one: Compared, others: Sequence[Compared]) -> tuple[Doubt, bool] | None:
+    """A doubt about a recording beside others that are met, and whether a fault of one sensor explains it.
+
+    None where it does not stand out.
 
     Args:
         one: Beside numbers that were not fitted to it.
@@ -108,7 +110,7 @@ def _apart(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     text = f"{_FITTED} the scenario explains {told} and {percent(max(1.0 - mine, 0.0))} of "
     text += "this one's"
     missed = [n for n, b in channels.items() if left(b, b.simulated_there) > as_explained(theirs)]
-    subject, remedy, begin, end = "all channels", _RIG, one.begin, one.end
+    subject, remedy, begin, end, sensor = "all channels", _RIG, one.begin, one.end, None
     if len(missed) == 1:
         (subject,) = missed
         text += f", where {subject} alone is missed" if len(channels) > 1 else ""
@@ -117,4 +119,4 @@ def _apart(one: Compared, others: Sequence[Compared]) -> Doubt | None:
             text += f"; as if this sensor {sensor.what}, it is {percent(1.0 - sensor.left)}"
             remedy, begin, end = _SENSOR, sensor.begin, sensor.end
     z = math.sqrt(mine / max(theirs, 1e-12))
-    return Doubt(one.recording.title, subject, ODD, text, remedy, False, begin, end, z)
+    return Doubt(one.recording.title, subject, ODD, text, remedy, False, begin, end, z), sensor is not None

@@ -229,7 +229,7 @@ def stated_share(course: Course, lefts: dict[str, float]) -> str:
     worst = max(lefts, key=lambda n: lefts[n])
     origin = "recorded" if course.is_recorded else "stated"
     mine = percent(max(1.0 - lefts[worst], 0.0))
-    return f"with the {origin} course of {course.name} the scenario as it is explains {mine} of the variance of {worst}"
+    return f"with the {origin} course of {course.name} the scenario explains {mine} of the variance of {worst}"
 
 
 def _doubt(one: Compared, channels: dict[str, Beside], course: Course, explained: float, likeness: float) -> Doubt:
