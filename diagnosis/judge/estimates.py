@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from diagnosis.judge.diagnosis import Estimate, Physical
-from diagnosis.judge.events import between_samples, local_estimates, of_an_input
+from diagnosis.judge.events import between_samples, ends_by_likelihood, local_estimates
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.fit import Fit
 from diagnosis.search.posterior import HUBER
@@ -23,7 +23,7 @@ def estimated(model: DiagnosisModel, fit: Fit, term: Term, doubt: float) -> tupl
     """Parameters of a term with intervals by all that is known of them: instants on the clock of their recording."""
     found = estimates(fit, term, doubt, model.scale_uncertainty(term))
     told = between_samples(local_estimates(found, term, fit, model, doubt), term, model)
-    told = of_an_input(told, term, fit, model, doubt)
+    told = ends_by_likelihood(told, term, fit, model, doubt)
     simulated = model.simulated_interval(term)
     if simulated is None:
         return told

@@ -166,13 +166,14 @@ def between_samples(estimates: Sequence[Estimate], term: Term, model: DiagnosisM
     return tuple(found)
 
 
-def of_an_input(
+def ends_by_likelihood(
     estimates: Sequence[Estimate], term: Term, fit: Fit, model: DiagnosisModel, doubt: float = 1.0
 ) -> tuple[Estimate, ...]:
-    """Estimates of an input's fault, whose begin and end may be anywhere while that would have changed nothing.
+    """Estimates of a fault whose begin and end may be anywhere while that would have changed nothing.
 
-    While an input that stayed is stated not to move, or one that is a share off is stated as zero, the curvature says
-    nothing, see `instant_interval`: it holds whatever the bounds allow, and the likelihood alone tells. Estimates of
+    While an input that stayed is stated not to move, one that is a share off is stated as zero, or a sensor that stands
+    still would have read the same, the curvature says nothing, see `instant_interval`: it holds whatever the bounds
+    allow, and the likelihood alone tells. Begin and end of a sensor's fault are asked for there alone; estimates of
     other terms are as they were.
 
     Args:
@@ -182,13 +183,17 @@ def of_an_input(
         model: Model of the recordings that were fitted, wrapped or not.
         doubt: As in `instant_interval`.
     """
-    is_of_input = term.recording is not None and model.where(term)[1].channels is None
-    if not is_of_input:
+    if term.recording is None:
         return tuple(estimates)
+    is_of_input = model.where(term)[1].channels is None
     found = []
     for number, (e, p) in enumerate(zip(estimates, term.parameters)):
-        lower, upper = _as_good(term, number, fit, model, doubt) if p.is_instant else (e.lower, e.upper)
-        if e.lower > p.lower or e.upper < p.upper:  # the curvature says something
+        is_told = e.lower > p.lower or e.upper < p.upper  # by the curvature
+        if not p.is_instant or (is_told and not is_of_input):
+            found.append(e)
+            continue
+        lower, upper = _as_good(term, number, fit, model, doubt)
+        if is_told:
             lower, upper = min(e.lower, lower), max(e.upper, upper)
         found.append(replace(e, lower=lower, upper=upper))
     return tuple(found)

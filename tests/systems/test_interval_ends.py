@@ -13,7 +13,7 @@ from cosim.scenario import load_scenario
 from diagnosis.candidates.registry import catalogue
 from diagnosis.faults.model import with_faults
 from diagnosis.judge.estimates import estimated, estimates
-from diagnosis.judge.events import of_an_input
+from diagnosis.judge.events import ends_by_likelihood
 from diagnosis.models.build import model_of
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.fit import fit
@@ -97,6 +97,29 @@ def test_a_sensor_that_repeats_a_value_is_tried_as_one_that_stands_still(tmp_pat
     assert not any(gain in p.terms for p in model.near_intervals(other))
 
 
+def test_a_sensor_that_stands_still_may_begin_to_while_it_would_have_read_the_same(tmp_path: Path) -> None:
+    """A level that rests until the pump runs: the curvature says nothing of the begin, and the end is told."""
+    stated = np.zeros(COUNT)
+    stated[150:] = 0.02
+    level = held(lambda h, q: (q - 0.0002 * h) / 0.495, np.array([0.0]), stated, STEP)[:, 0]
+    level[150:220] = level[100]
+    columns = {"t": STEP * np.arange(COUNT), "q": stated, "h": level}
+    path = write_recording(
+        tmp_path / "run", columns, {"pump.inflow": ("q", "m^3/s")}, {"tank.level": ("h", "m", "1 mm")}
+    )
+    tank(tmp_path, "200 s", "500 ms")
+    model = with_faults(model_of(load_scenario(str(tmp_path / "scenario.yaml")), [load_recording(path)], catalogue()))
+    (still,) = [t for t in model.faults() if t.identifier == "sensor_stuck_in_interval" and "again" not in t.place]
+    point = Point(np.zeros(len(model.parameters)), {still: (1.0, STEP * 99.5, STEP * 219.5)})
+    found = fit(model, point, 60)
+    wide = [replace(e, lower=p.lower, upper=p.upper) for e, p in zip(estimates(found, still), still.parameters)]
+    begin, end = ends_by_likelihood(wide, still, found, model)[1:]
+    assert begin.upper < STEP * 170  # in truth at 150
+    assert STEP * 215 < end.lower < end.upper < STEP * 224
+    told = [replace(e, lower=e.value - 0.1, upper=e.value + 0.1) for e in wide]
+    assert list(ends_by_likelihood(told, still, found, model)) == told  # the curvature says something of a sensor
+
+
 def test_ends_that_change_nothing_are_as_good_and_the_interval_holds_them(tmp_path: Path) -> None:
     """A pump that misses its second stroke was off before it or since the first one ended: no reading says."""
     stated = np.zeros(COUNT)
@@ -149,5 +172,5 @@ def test_an_input_that_stayed_did_so_from_an_instant_at_which_it_was_not_to_move
     # A derivative that is nearly zero says as little as one that is: an interval as wide as the bounds is none.
     wide = [replace(e, lower=p.lower, upper=p.upper) for e, p in zip(estimates(found, term), term.parameters)]
     assert wide[1].upper - wide[1].lower > 190.0
-    told = of_an_input(wide, term, found, model)[1]
+    told = ends_by_likelihood(wide, term, found, model)[1]
     assert (told.lower, told.upper) == (begin.lower, begin.upper)
