@@ -98,7 +98,7 @@ def test_a_sensor_that_repeats_a_value_is_tried_as_one_that_stands_still(tmp_pat
 
 
 def test_a_sensor_that_stands_still_may_begin_to_while_it_would_have_read_the_same(tmp_path: Path) -> None:
-    """A level that rests until the pump runs: the curvature says nothing of the begin, and the end is told."""
+    """A level that rests until the pump runs: the curvature says nothing of the begin, and the end is known."""
     stated = np.zeros(COUNT)
     stated[150:] = 0.02
     level = held(lambda h, q: (q - 0.0002 * h) / 0.495, np.array([0.0]), stated, STEP)[:, 0]

@@ -226,7 +226,7 @@ class ClosedLoopModel(ModelBase):
 
     def amend(self, scenario: Scenario, point: Point, folder: Path) -> Path:
         """See `diagnosis.amend.closed_loop.amend_closed_loop`."""
-        return amend_closed_loop(scenario, self.model, point, folder)
+        return amend_closed_loop(scenario, self.restated(scenario, point), point.terms, folder)
 
     def predict(self, point: Point, run: int) -> list[Array]:
         """Simulated values of every channel of a recording at its samples, SI."""
