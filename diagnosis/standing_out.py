@@ -10,11 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import replace
+from functools import partial
 
 from diagnosis.check.beside import Compared
 from diagnosis.check.late_input import late_input
 from diagnosis.check.odd_one_out import MET, SAME, TIMES, as_explained, comparable, left, left_beside
-from diagnosis.check.other_course import other_course, paused_input
+from diagnosis.check.other_course import other_course
 from diagnosis.check.other_number import other_number
 from diagnosis.check.sensor_of_one import explained_by_sensor
 from diagnosis.check.size_of_input import size_of_input
@@ -77,10 +78,8 @@ def _of_rig(refitted: Refitted, number: int) -> Doubt | None:
     if not every:
         return None
     one, others = _parted(every, number)
-    told = late_input(one)
-    told = told or next(
-        (d for ask in (unit_of_input, size_of_input, other_course, paused_input) if (d := ask(one, others))), None
-    )
+    of_all = (unit_of_input, size_of_input, partial(other_course, least=0.0))
+    told = late_input(one) or next((d for ask in of_all if (d := ask(one, others))), None)
     own = other_number(one, others)
     if told is None:
         return None if own is None else _beside_fitted(own, "", is_serious=False)

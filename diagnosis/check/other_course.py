@@ -60,7 +60,7 @@ DEPARTED = 1.5
 ANSWERS = 10.0
 
 
-def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
+def other_course(one: Compared, others: Sequence[Compared], least: float = MISSED) -> Doubt | None:
     """A doubt about the input whose stated course is not the one that acted; None where no single one is.
 
     It is not serious where the stated course acted but for an interval: the search looks for it.
@@ -68,20 +68,29 @@ def other_course(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     Args:
         one: A recording that stands out (`diagnosis.check.odd_one_out`).
         others: The other recordings of the same rig, which the scenario meets.
+        least: Share of its variance that the stated course leaves of a channel at least. Below `MISSED`, where the
+            recording is met for the most part, intervals alone are sought, and no other course is estimated.
     """
     channels = comparable(one)
     if one.base is None or not is_quick(one.scenario) or len(channels) < CHANNELS:
         return None
-    if most_left(channels.values(), left) < MISSED:
+    missed = most_left(channels.values(), left)
+    if missed < least:
         return None
     with closing(InputRuns(one)) as runs:
-        return _asked(runs, others, channels)
+        found = _other_courses(runs, others, channels) if missed >= MISSED else []
+        is_short = one.scenario.time.macro_steps <= MOST_PAUSES
+        asked = [course for course, *_ in found] or (of_one_element(one) if is_short else [])
+        of_pause = _paused(runs, others, channels, asked)
+    return of_pause or (_doubt(one, channels, *found[0]) if len(found) == 1 else None)
 
 
-def _asked(runs: InputRuns, others: Sequence[Compared], channels: dict[str, Beside]) -> Doubt | None:
+def _other_courses(
+    runs: InputRuns, others: Sequence[Compared], channels: dict[str, Beside]
+) -> list[tuple[Course, float, float]]:
+    """Inputs of which another course explains the readings, with the share explained and the likeness to the stated."""
     found, one = [], runs.one
-    courses = of_one_element(one)
-    for course in courses:
+    for course in of_one_element(one):
         alike = [c for o in (one, *others) for c in o.courses if c.name == course.name]
         low, high = (float(f([f(c.values) for c in alike])) for f in (np.min, np.max))
         if high <= low:
@@ -90,26 +99,7 @@ def _asked(runs: InputRuns, others: Sequence[Compared], channels: dict[str, Besi
         told = _estimated(runs, channels, course, (low - margin, high + margin))
         if told is not None:
             found.append((course, *told))
-    asked = [course for course, *_ in found] or (courses if one.scenario.time.macro_steps <= MOST_PAUSES else [])
-    of_pause = _paused(runs, others, channels, asked)
-    return of_pause or (_doubt(one, channels, *found[0]) if len(found) == 1 else None)
-
-
-def paused_input(one: Compared, others: Sequence[Compared]) -> Doubt | None:
-    """A doubt about the input that was not applied for a while, or did not move, never serious; None where none was.
-
-    It is asked of a recording that is met for the most part, too.
-
-    Args:
-        one: A recording that stands out.
-        others: The other recordings of the same rig, which the scenario meets.
-    """
-    channels = comparable(one)
-    is_short = one.scenario.time.macro_steps <= MOST_PAUSES
-    if one.base is None or not is_quick(one.scenario) or not is_short or len(channels) < CHANNELS:
-        return None
-    with closing(InputRuns(one)) as runs:
-        return _paused(runs, others, channels, of_one_element(one))
+    return found
 
 
 def _paused(
