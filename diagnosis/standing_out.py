@@ -113,7 +113,7 @@ def _apart(one: Compared, others: Sequence[Compared]) -> tuple[Doubt, bool] | No
     if len(missed) == 1:
         (subject,) = missed
         text += f", where {subject} alone is missed" if len(channels) > 1 else ""
-        sensor = explained_by_sensor(channels[subject], as_explained(theirs))
+        sensor = explained_by_sensor(channels[subject], as_explained(theirs), one.units_of(subject))
         if sensor is not None:
             text += f"; as if this sensor {sensor.what}, it is {percent(1.0 - sensor.left)}"
             remedy, begin, end = _SENSOR, sensor.begin, sensor.end

@@ -7,6 +7,7 @@ the others are explained, nothing else is claimed, and the search is left to fin
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -19,6 +20,7 @@ from diagnosis.check.odd_one_out import as_explained, comparable, left, left_bes
 from diagnosis.check.timing import between, percent
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.report.display import instant
+from diagnosis.report.user_units import Units
 
 #: Lags that are tried first, as shares of the recording; between the neighbours of the best one it is found.
 LAGS = tuple(np.geomspace(2e-3, 0.3, 15).tolist())
@@ -53,7 +55,7 @@ def sensor_of_one(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     if len(missed) != 1:
         return None
     (name,) = missed
-    found = explained_by_sensor(one.channels[name], enough)
+    found = explained_by_sensor(one.channels[name], enough, one.units_of(name))
     if found is None:
         return None
     text = (
@@ -69,32 +71,37 @@ def sensor_of_one(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     return Doubt(one.recording.title, name, "sensor", text, remedy, False, found.begin, found.end, z)
 
 
-def explained_by_sensor(beside: Beside, enough: float) -> Explained | None:
+def explained_by_sensor(beside: Beside, enough: float, units: Units) -> Explained | None:
     """The fault of a sensor that explains a channel best, scaled and shifted too; None if none leaves so little.
 
     Args:
         beside: The channel of one recording.
         enough: Share of its variance that may be left.
+        units: In which sizes are told.
     """
-    scaled = _scaled(beside)
+    scaled = _scaled(beside, units)
     if scaled.left <= enough:
         return scaled
-    found = min((e(beside) for e in (_drift, _lag, _offset)), key=lambda f: f.left)
+    found = min((_drift(beside, enough, units), _lag(beside), _offset(beside, enough, units)), key=lambda f: f.left)
     return found if found.left <= enough else None
 
 
-def _scaled(beside: Beside) -> Explained:
+def _scaled(beside: Beside, units: Units) -> Explained:
     """Another range, amplification or zero from begin to end."""
     begin, end = float(beside.times[0]), float(beside.times[-1])
     slope = float(np.polyfit(beside.simulated_there, beside.measured, 1)[0])
-    what = "had another zero" if abs(slope - 1.0) < SAME_SLOPE else f"read {slope:.3g} times as much from another zero"
+    size = units.text(float(np.mean(beside.measured - beside.simulated_there)), beside.channel.unit)
+    is_zero = abs(slope - 1.0) < SAME_SLOPE
+    what = f"had another zero, by {size}" if is_zero else f"read {slope:.3g} times as much from another zero"
     return Explained(what, scaled_left(beside, beside.simulated_there), begin, end)
 
 
-def _drift(beside: Beside) -> Explained:
+def _drift(beside: Beside, enough: float, units: Units) -> Explained:
     """A zero that moves in proportion to time."""
     begin, end = float(beside.times[0]), float(beside.times[-1])
-    return Explained("drifted in proportion to time", _left_with(beside, beside.times - begin), begin, end)
+    share = (beside.times - begin) / (end - begin)
+    what = f"drifted in proportion to time, by {_size(beside, share, enough, units)} from begin to end"
+    return Explained(what, _left_with(beside, share), begin, end)
 
 
 def _lag(beside: Beside) -> Explained:
@@ -109,7 +116,7 @@ def _lag(beside: Beside) -> Explained:
     return Explained(what, share, float(beside.times[0]), float(beside.times[-1]))
 
 
-def _offset(beside: Beside) -> Explained:
+def _offset(beside: Beside, enough: float, units: Units) -> Explained:
     """A zero that is off between two instants."""
     basis, count = _basis(beside), len(beside.times)
     rest = _freed(beside.measured, basis)
@@ -131,7 +138,7 @@ def _offset(beside: Beside) -> Explained:
     there = np.arange(count)
     box = ((there >= begin) & (there < end)).astype(np.float64)
     first, last = float(beside.times[begin]), float(beside.times[end - 1])
-    what = f"was off by as much from about {between(first, last)} s"
+    what = f"was off by {_size(beside, box, enough, units)} from about {between(first, last)} s"
     return Explained(what, _left_with(beside, box), first, last)
 
 
@@ -145,12 +152,25 @@ def _best(gains: Callable[[AnyArray, AnyArray], Array], pairs: Iterator[tuple[in
     return int(best[0]), int(best[1])
 
 
+def _size(beside: Beside, column: Array, enough: float, units: Units) -> str:
+    """By how much of a column a channel is off, with its unit and the sizes that leave no more than enough."""
+    basis = _basis(beside)
+    rest, free = _freed(beside.measured, basis), _freed(column, basis)
+    size, part = _strength(rest, free), max(float(np.mean(free**2)), 1e-300)
+    half = math.sqrt(max(enough - _left_with(beside, column), 0.0) * float(np.var(beside.measured)) / part)
+    return units.scale(size, beside.channel.unit).interval(size, size - half, size + half)
+
+
+def _strength(rest: Array, column: Array) -> float:
+    """How much of a column a row contains, by least squares."""
+    return float(rest @ column) / max(float(column @ column), 1e-300)
+
+
 def _left_with(beside: Beside, column: Array) -> float:
     """Share of a channel's variance that the simulated course, scaled and shifted, and a column leave."""
     basis = _basis(beside)
     rest, free = _freed(beside.measured, basis), _freed(column, basis)
-    free = free * (float(rest @ free) / max(float(free @ free), 1e-300))
-    return left(beside, beside.measured - (rest - free))
+    return left(beside, beside.measured - (rest - free * _strength(rest, free)))
 
 
 def _basis(beside: Beside) -> Array:

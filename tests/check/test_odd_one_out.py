@@ -90,7 +90,11 @@ def test_a_recording_that_is_met_but_for_a_sensor_is_searched_all_the_same(tmp_p
     assert _doubts(tmp_path, recordings) == []
     (told,) = _all_doubts(tmp_path, recordings)
     assert (told.recording, told.kind, told.is_serious) == ("run_2", "sensor", False)
-    assert "was off by as much" in told.statement
+    sizes = re.search(r"this sensor was off by ([\d.]+) m \(([\d.]+) to ([\d.]+)\) from about", told.statement)
+    assert sizes is not None, told.statement
+    size, least, most = (float(n) for n in sizes.groups())
+    assert least < size < most
+    assert least <= offset <= most
 
 
 def test_a_recording_in_which_little_moves_is_no_odd_one(tmp_path: Path) -> None:

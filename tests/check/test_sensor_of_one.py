@@ -50,8 +50,8 @@ def _behind(values: Array) -> Array:
 @pytest.mark.parametrize(
     ("sensor", "words"),
     [
-        (_drifting, r"drifted in proportion to time"),
-        (_off, r"was off by as much from about ([\d.]+) to ([\d.]+) s"),
+        (_drifting, r"drifted in proportion to time, by ([\d.]+) K \(([\d.]+) to ([\d.]+)\) from begin to end"),
+        (_off, r"was off by ([\d.]+) K \(([\d.]+) to ([\d.]+)\) from about ([\d.]+) to ([\d.]+) s"),
     ],
     ids=["drift", "offset"],
 )
@@ -64,7 +64,9 @@ def test_a_sensor_that_explains_the_recording_is_told_and_no_number(
     assert (told.recording, told.subject, told.kind) == ("run_2", "stack.bottom", "sensor")
     found = re.search(words, told.statement)
     assert found is not None, told.statement
-    numbers = [float(n) for n in found.groups()]
+    size, least, most, *numbers = (float(n) for n in found.groups())
+    assert least < size < most
+    assert least <= 6.0 <= most  # the numbers of the model are off too
     if sensor is _off:
         assert numbers == pytest.approx([0.3 * END, 0.6 * END], rel=0.02)
         assert (told.begin, told.end) == pytest.approx(numbers, rel=0.01)
