@@ -80,6 +80,8 @@ def _numbers_that_do(one: Compared, name: str, ratio: float) -> list[str] | None
     try:
         with closing(SystemRuns(one.scenario)) as system:
             for component, number, _, value in system.numbers():
+                if value == 0.0:
+                    continue  # it has no multiples
                 for power in POWERS:
                     results = system.with_number(component, number, value * ratio**power)
                     if results is not None and _does(

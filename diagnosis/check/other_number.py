@@ -34,6 +34,8 @@ FARTHEST = 10.0
 #: Factors that are tried first, on either side; between the neighbours of the best one the number is found.
 FACTORS = (1.1, 1.5, 3.0, FARTHEST)
 _TRIED = sorted([0.0, *(sign * math.log(f) for f in FACTORS for sign in (-1.0, 1.0))])
+#: Sizes of a number that is stated as 0, in its own unit, that are tried first, on either side.
+_SIZES = [math.log(10.0) * n for n in range(-9, 10)]
 #: Numbers that explain a recording beyond which they say nothing.
 MOST = 3
 
@@ -79,14 +81,38 @@ def other_number(one: Compared, others: Sequence[Compared]) -> Doubt | None:
 def _each(system: SystemRuns, one: Compared, channels: dict[str, Beside]) -> list[_Explained]:
     """Every number with the value that explains the recording best."""
     found = []
-    for component, name, unit, stated in system.numbers():
-
-        def cost(logarithm: float, of: tuple[str, str] = (component, name), at: float = stated) -> float:
-            return _left(system.with_number(*of, at * math.exp(logarithm)), one, channels)
-
-        logarithm, left = best_logarithm(cost, _TRIED)
-        found.append(_Explained(f"{component}.{name}", unit, stated, stated * math.exp(logarithm), left))
+    for number in system.numbers():
+        stated = number[-1]
+        sides = [(_TRIED, stated)] if stated != 0.0 else [(_SIZES, 1.0), (_SIZES, -1.0)]
+        found.append(min((_best(system, one, channels, number, *side) for side in sides), key=lambda f: f.left))
     return found
+
+
+def _best(
+    system: SystemRuns,
+    one: Compared,
+    channels: dict[str, Beside],
+    number: tuple[str, str, str, float],
+    tried: Sequence[float],
+    scale: float,
+) -> _Explained:
+    """The value with which a number explains the recording best.
+
+    Args:
+        system: Of the recording.
+        one: The recording.
+        channels: Its channels that are compared, by name.
+        number: Component, name, unit and stated value.
+        tried: Logarithms of factors that are tried first, rising.
+        scale: Which the factors multiply: its sign stays.
+    """
+    component, name, unit, stated = number
+
+    def cost(logarithm: float) -> float:
+        return _left(system.with_number(component, name, scale * math.exp(logarithm)), one, channels)
+
+    logarithm, left = best_logarithm(cost, tried)
+    return _Explained(f"{component}.{name}", unit, stated, scale * math.exp(logarithm), left)
 
 
 def _left(results: xr.Dataset | None, one: Compared, channels: dict[str, Beside]) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -18,7 +19,8 @@ from diagnosis.diagnose import Options, diagnose
 from diagnosis.judge.diagnosis import Doubt, Verdict
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.search import Settings
-from tests.check.test_other_course import CHANNELS, COUNT, HOLD, SCENARIO, STACK, STEP, G, recorded
+from tests.check.test_other_course import C_1, C_2, CHANNELS, COUNT, G_OUT, HOLD, SCENARIO, STACK, STEP, G, recorded
+from tests.systems.rigs import built, held
 
 #: Power that the runs may take [W]: from least to largest.
 LEAST, MOST = 0.0, 40.0
@@ -86,6 +88,33 @@ def test_a_number_that_is_another_in_one_recording_is_named_with_its_value(tmp_p
     value = re.search(r"with stack.G_out = ([0-9.]+) W/K \(0.8 is stated\) in this recording alone", doubt.statement)
     assert value is not None
     assert float(value[1]) == pytest.approx(1.6, rel=0.05)  # other numbers are as stated, 2 % off
+
+
+@pytest.mark.parametrize("of_air", [0.5, -0.3], ids=["loss", "gain"])
+def test_a_number_that_is_stated_as_0_is_tried_on_either_side(of_air: float, tmp_path: Path) -> None:
+    """The plate of the second run loses heat to the air, or gets some; the scenario says that no plate does."""
+    rates = {
+        "plate": ("K", "295", "(power - G*(plate - block) - G_air*(plate - 295))/C_1"),
+        "block": STACK.states["block"],
+    }
+    model = replace(STACK, parameters=STACK.parameters | {"G_air": (0.0, "W/K")}, states=rates)
+
+    def rate(x: Array, u: float, air: float) -> Array:
+        through = G * (x[0] - x[1])
+        return np.array([(u - through - air * (x[0] - 295.0)) / C_1, (through - G_OUT * (x[1] - 295.0)) / C_2])
+
+    built(model, SCENARIO, tmp_path)
+    recordings = []
+    for run in (1, 2, 3):
+        rng = np.random.default_rng(100 + run)
+        power = np.repeat(rng.uniform(LEAST, MOST, COUNT // HOLD), HOLD)
+        course = held(partial(rate, air=of_air if run == 2 else 0.0), np.array([295.0, 295.0]), power, STEP)
+        recordings.append(recorded(tmp_path / f"run_{run}", power, course, rng, tuple(CHANNELS)))
+    (doubt,) = _doubts(tmp_path, recordings)
+    assert doubt.recording == "run_2"
+    value = re.search(r"with stack.G_air = (-?[0-9.]+) W/K \(0 is stated\)", doubt.statement)
+    assert value is not None, doubt.statement
+    assert float(value[1]) == pytest.approx(of_air, rel=0.03)
 
 
 def test_a_diagnosis_says_it_and_searches_nothing(tmp_path: Path) -> None:

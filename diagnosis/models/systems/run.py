@@ -77,11 +77,10 @@ class SystemRuns:
         self._system.close()
 
     def numbers(self) -> Iterator[tuple[str, str, str, float]]:
-        """Component, name, unit and value of every scalar parameter of an FMU that is not 0."""
+        """Component, name, unit and value of every scalar parameter of an FMU."""
         for component, fmu in self._system.fmus.items():
             for name, value in scalar_parameters(fmu, self._system, component):
-                if value != 0.0:
-                    yield component, name, fmu.unit.table.all[name].variable.unit, value
+                yield component, name, fmu.unit.table.all[name].variable.unit, value
 
     def with_number(self, component: str, name: str, value: float) -> xr.Dataset | None:
         """Results with another value of a parameter, in its own unit; None where a unit fails or runs away."""
