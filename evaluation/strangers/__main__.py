@@ -39,6 +39,7 @@ from evaluation.strangers import (
     thirteenth_set,
     twelfth_set,
     twentieth_set,
+    twenty_eighth_set,
     twenty_fifth_set,
     twenty_first_set,
     twenty_fourth_set,
@@ -78,6 +79,7 @@ SETS = {
     "twenty_fifth": twenty_fifth_set.CASES,
     "twenty_sixth": twenty_sixth_set.CASES,
     "twenty_seventh": twenty_seventh_set.CASES,
+    "twenty_eighth": twenty_eighth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
