@@ -13,6 +13,7 @@ from dataclasses import replace
 from functools import partial
 
 from diagnosis.check.beside import Compared
+from diagnosis.check.changed_rig import changed_rig
 from diagnosis.check.late_input import late_input
 from diagnosis.check.odd_one_out import MET, SAME, TIMES, as_explained, comparable, left, left_beside
 from diagnosis.check.other_course import other_course
@@ -69,7 +70,8 @@ def _parted(every: Sequence[Compared], number: int) -> tuple[Compared, list[Comp
 
 
 def _of_rig(refitted: Refitted, number: int) -> Doubt | None:
-    """Which input or number was another in a recording that stands out, as the check asks beside the scenario as it is.
+    """What was another in a recording that stands out, as the check asks beside the scenario as it is: an input, a
+    number, or something of the rig for a while.
 
     It is serious where one input alone does, and no number: numbers are fitted here, and one may be off that the others
     do not determine.
@@ -82,6 +84,7 @@ def _of_rig(refitted: Refitted, number: int) -> Doubt | None:
     told = late_input(one) or next((d for ask in of_all if (d := ask(one, others))), None)
     own = other_number(one, others)
     if told is None:
+        own = own or changed_rig(one, others)
         return None if own is None else _beside_fitted(own, "", is_serious=False)
     also = "" if own is None else f"; another {own.subject} in this recording does as well"
     return _beside_fitted(told, also, told.is_serious and own is None)

@@ -11,6 +11,7 @@ import xarray as xr
 
 from cosim.scenario import Scenario
 from diagnosis.check.beside import Compared, compare
+from diagnosis.check.changed_rig import changed_rig
 from diagnosis.check.clock_doubts import shift_doubts
 from diagnosis.check.clock_of_one import clocks_of_one
 from diagnosis.check.copied import copied_doubts
@@ -137,7 +138,7 @@ def _odd(doubt: Doubt, every: Sequence[Compared], is_told: bool, gain_at: Callab
     sensor = sensor_of_one(one, others)
     if sensor is not None:  # a number or an input that explains the same is no better known
         return sensor
-    asked = (unit_of_input, size_of_input, other_course, other_number)
+    asked = (unit_of_input, size_of_input, other_course, other_number, changed_rig)
     return next((d for ask in asked if (d := ask(one, others)) is not None), gain or doubt)
 
 

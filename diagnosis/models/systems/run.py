@@ -46,9 +46,9 @@ def run_quickly(scenario: Scenario) -> xr.Dataset:
 
 def _run(scenario: Scenario) -> xr.Dataset | None:
     with closing(FastSystem(scenario)) as system:
-        _check_outputs(system)
+        check_outputs(system)
         values = resolve(system)
-        return None if values is None else _dataset(system, values)
+        return None if values is None else dataset(system, values)
 
 
 class SystemRuns:
@@ -66,7 +66,7 @@ class SystemRuns:
     def __init__(self, scenario: Scenario) -> None:
         self._system = FastSystem(scenario)
         try:
-            _check_outputs(self._system)
+            check_outputs(self._system)
             resolve(self._system)
         except BaseException:
             self.close()
@@ -86,7 +86,7 @@ class SystemRuns:
         """Results with another value of a parameter, in its own unit; None where a unit fails or runs away."""
         unit = self._system.fmus[component].unit.table.all[name].variable.unit
         rows = self._system.simulate(Changes({component: {name: PhysicalValue(value, unit)}}))
-        return None if rows is None else _dataset(self._system, rows.values)
+        return None if rows is None else dataset(self._system, rows.values)
 
     def with_courses(self, courses: Mapping[tuple[str, str], Course]) -> xr.Dataset | None:
         """Results with other courses of outputs of programmes, in their own units; None as in `with_number`.
@@ -97,12 +97,12 @@ class SystemRuns:
         stated = self._system.give(courses)
         try:
             rows = self._system.simulate()
-            return None if rows is None else _dataset(self._system, rows.values)
+            return None if rows is None else dataset(self._system, rows.values)
         finally:
             self._system.give(stated)
 
 
-def _check_outputs(system: FastSystem) -> None:
+def check_outputs(system: FastSystem) -> None:
     """Raises `NotFast` where an FMU has outputs that compiled code does not record."""
     for name, unit in system.assembly.system.units.items():
         fmu = system.fmus.get(name)
@@ -111,7 +111,7 @@ def _check_outputs(system: FastSystem) -> None:
             raise NotFast(f"{name} has outputs that are no numbers of double precision")
 
 
-def _dataset(system: FastSystem, values: Array) -> xr.Dataset:
+def dataset(system: FastSystem, values: Array) -> xr.Dataset:
     """Recorded values, shape (outputs, recorded), as results of a run."""
     data = {}
     for (name, variable), columns in system.recorded.items():

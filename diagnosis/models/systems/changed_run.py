@@ -1,0 +1,133 @@
+"""Runs of a system of FMUs in compiled code in which something of an FMU is another for a while."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import closing
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from cosim.components import FmuComponent
+from cosim.formula import to_base
+from cosim.scenario import Scenario
+from cosim.unit.errors import InputError
+from diagnosis.models.systems.changeable import why_none
+from diagnosis.models.systems.fast import FastSystem
+from diagnosis.models.systems.fmu_layout import FastFmu, NotFast
+from diagnosis.models.systems.numbers import scalar_parameters
+from diagnosis.models.systems.placed import Placed
+from diagnosis.models.systems.run import check_outputs, dataset
+from diagnosis.models.systems.steps import resolve
+
+#: 1 from begin to end of the interval, else 0.
+_BOX = "(step(time - begin) - step(time - end))"
+#: Share of a parameter, and share of its range by which a state would be moved over the recording, tried first.
+FIRST_SHARE, FIRST_RISE = 0.05, 0.2
+
+
+@dataclass(frozen=True)
+class Changed:
+    """What may be another for a while: a parameter of a Model Exchange FMU, or the derivative of one of its states.
+
+    Args:
+        component: Name of the FMU in the scenario.
+        name: Of the parameter or state.
+        unit: Of the parameter; of the state, whose derivative has it per second.
+        stated: Value of the parameter; None of a derivative, to which an amount is added.
+        first: Amount that is tried first: a share of the parameter, or the amount in SI base units.
+    """
+
+    component: str
+    name: str
+    unit: str
+    stated: float | None
+    first: float
+
+    @property
+    def is_share(self) -> bool:
+        """Whether an amount is a share of what is stated."""
+        return self.stated is not None
+
+    @property
+    def to(self) -> str:
+        """Where it acts, as `added_terms` of a scenario say it."""
+        return f"parameter({self.name})" if self.is_share else f"der({self.name})"
+
+
+class ChangedRuns:
+    """Runs of one scenario with one change each; the FMUs stay loaded until `close`.
+
+    A Co-Simulation FMU hides its states and takes no parameter during a run: nothing of it can be changed.
+
+    Args:
+        scenario: The system.
+
+    Raises:
+        InputError: The scenario is wrong.
+        NotFast: It has something that only the co-simulation can do, or nothing of it can be changed.
+        CompilerError: There is no C compiler.
+    """
+
+    def __init__(self, scenario: Scenario) -> None:
+        with closing(FastSystem(scenario)) as plain:
+            check_outputs(plain)
+            resolve(plain)
+            #: Everything that may be another.
+            self.changes = [c for name in plain.fmus for c in _changes(plain, name)]
+        if not self.changes:
+            raise NotFast("nothing of its FMUs can be another for a while")
+        self._system = FastSystem(scenario, [_placed(c) for c in self.changes])
+        try:
+            resolve(self._system)
+        except BaseException:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """Free the FMUs."""
+        self._system.close()
+
+    def results(self, number: int, amount: float, begin: float, end: float) -> xr.Dataset | None:
+        """Results with a change from begin to end [s]; None where a unit fails or runs away.
+
+        Args:
+            number: Of the change.
+            amount: See `Changed.first`.
+            begin: [s].
+            end: [s].
+        """
+        try:
+            rows = self._system.simulate(laws={number: (amount, begin, end)})
+        except (InputError, NotFast):
+            return None  # the FMU takes no other value of this parameter
+        return None if rows is None else dataset(self._system, rows.values)
+
+
+def _placed(changed: Changed) -> Placed:
+    numbers = (("amount", "1"), ("begin", "s"), ("end", "s"))
+    return Placed(changed.component, changed.to, f"amount*{_BOX}", numbers, is_share=changed.is_share)
+
+
+def _changes(system: FastSystem, name: str) -> Iterator[Changed]:
+    """What of one FMU may be another: parameters that are not 0, and derivatives of states that move."""
+    fmu = system.fmus[name]
+    component = system.scenario.components[name]
+    if not fmu.is_model_exchange or not isinstance(component, FmuComponent) or component.integrator != "cvode":
+        return
+    if not why_none(fmu):
+        for parameter, value in scalar_parameters(fmu, system, name):
+            if value != 0.0:
+                yield Changed(name, parameter, _unit(fmu, parameter), value, FIRST_SHARE)
+    rows = system.simulate()
+    span = system.times[-1] - system.times[0]
+    for state in fmu.states:
+        moved = 0.0 if rows is None else float(np.ptp(rows.values[:, system.recorded[name, f"state {state}"]]))
+        if moved > 0.0 and state in fmu.units:
+            unit = fmu.units[state]
+            yield Changed(name, state, unit, None, FIRST_RISE * moved * to_base(unit)[0] / span)
+
+
+def _unit(fmu: FastFmu, name: str) -> str:
+    return fmu.unit.table.all[name].variable.unit
