@@ -28,6 +28,8 @@ AGAIN = ", again"
 WHOLLY = TermParameter(
     "share", "1", 0.0, 1.0, (1.0,), is_switch=True, meaning="factor 0 or 1: whether it holds one reading"
 )
+#: What the name of a fault says of one that has begin and end, and may have lasted for its whole recording.
+FOR_A_WHILE = " for a while"
 _INTERVAL = "box(t) = 1 from begin to end, else 0"
 
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from diagnosis.candidates.candidate import CandidateTerm
-from diagnosis.faults.law import AS_A_LAW, INPUT, OF_INPUTS, is_one_of
+from diagnosis.faults.law import AS_A_LAW, FOR_A_WHILE, INPUT, OF_INPUTS, is_one_of
 from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.diagnosis import Finding, Member, Standing, class_places
 from diagnosis.judge.doubts import MEASURED, accuses, is_physics
@@ -62,12 +64,14 @@ def findings(
         units: In which sentences show quantities.
         judge: Model of the held-out recordings; None where there are none.
     """
-    found = []
+    found: list[Finding] = []
+    acting: list[Term] = []
     for explanation, terms, is_accepted in (
         (accepted.explanation, accepted.explanation.terms, True),
         (accepted.headline, tuple(accepted.reasons), False),
     ):
         ordered = sorted(terms, key=lambda t: -explanation.gains.get(t, 0.0))
+        acting += ordered
         found += [
             _finding(model, outcome, accepted, explanation, t, is_accepted, titles, units, judge) for t in ordered
         ]
@@ -81,7 +85,19 @@ def findings(
             ]
             found = [one_course(f, found) for f in found]
             found = [in_parts(f, found, model.hidden) for f in found]
-    return tuple(found)
+    return tuple(_lasting(model, t, f) for t, f in zip(acting, found))
+
+
+def _lasting(model: DiagnosisModel, term: Term, finding: Finding) -> Finding:
+    """The finding of a fault that may have lasted for its whole recording, by the intervals of begin and end: not told
+    as one of a while."""
+    if term.recording is None:
+        return finding
+    times = np.concatenate([s.channel.times for s in model.runs[term.recording].series])
+    ends = {e.name: e for e in finding.parameters}
+    if ends["begin"].lower > times.min() or ends["end"].upper < times.max():
+        return finding
+    return replace(finding, statement=finding.statement.replace(FOR_A_WHILE, "", 1))
 
 
 def one_course(finding: Finding, every: Sequence[Finding]) -> Finding:

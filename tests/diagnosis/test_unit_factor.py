@@ -26,6 +26,7 @@ def gain(factor: float, share: float = 0.002, effect: str = "input_gain") -> Fin
         (3.784, "The factor is 3.784, and 1 US gallon is 3.785 l"),
         (0.2642, "The factor is 1/3.785, and 1 US gallon is 3.785 l"),
         (1.6093, "1 mile is 1.609 km"),
+        (0.9145, "The factor is 0.9145, and 1 yd is 0.9144 m"),
         (0.1047, "1 rad/s is 9.549 rpm"),
         (1000.4, "prefixes of units differ by 1000"),
     ],
@@ -58,6 +59,11 @@ def test_factors_are_those_of_the_units() -> None:
     assert FACTORS["1 inHg is 3.386 kPa"] == pytest.approx(25.4 * 101.325 / 760, rel=1e-6)
     assert FACTORS["1 inch of water is 249.1 Pa"] == pytest.approx(0.0254 * 1000.0 * 9.80665, rel=1e-4)
     assert FACTORS["1 oz is 28.35 g"] == pytest.approx(453.59237 / 16)
+    assert FACTORS["1 yd is 0.9144 m"] == pytest.approx(3 * 0.3048)
+    assert FACTORS["1 knot is 0.5144 m/s"] == pytest.approx(1852 / 3600)
+    assert FACTORS["1 nautical mile is 1.852 km"] == pytest.approx(1.852)
+    assert FACTORS["1 cubic foot per minute is 1.699 m^3/h"] == pytest.approx(0.3048**3 * 60)
+    assert FACTORS["1 Torr is 133.3 Pa"] == pytest.approx(101325 / 760)
     assert FACTORS["1 hp is 745.7 W"] == pytest.approx(550 * 0.3048 * 0.45359237 * 9.80665)
     for told, factor in FACTORS.items():  # the last number in the words is that factor
         number = [float(w) for w in told.split() if w.replace(".", "").isdigit()][-1]

@@ -89,6 +89,9 @@ def test_a_sensor_that_drifts_in_one_recording_is_found(tmp_path: Path, begin: f
     assert offset.lower < 0.02 < offset.upper
     assert start.value == pytest.approx(begin, abs=12.0)
     assert end.value == pytest.approx(200.0, abs=1.0)
+    name = "sensor that drifted for a while" if start.lower > TIMES[0] else "sensor that drifted"
+    assert finding.statement == f"{name}, tank.level (run_1)"
+    assert start.lower > TIMES[0] or begin == 0.0
 
 
 def test_a_sensor_that_drifts_in_all_recordings_is_none_of_one(tmp_path: Path) -> None:

@@ -106,6 +106,7 @@ def test_a_sensor_that_is_slower_in_one_recording_is_found(tmp_path: Path) -> No
     (finding,) = [f for f in found.findings if f.is_accepted]
     assert (finding.effect, finding.place) == ("sensor_lag_in_interval", "rig.position (run_1)")
     assert finding.parameters[0].value == pytest.approx(0.03, rel=0.05)
+    assert finding.statement == "sensor that was slower, rig.position (run_1)"  # from begin to end, and not for a while
     assert not [d for d in found.doubts if d.kind in OF_TIMES]  # the numbers were off, and no clock
 
 
