@@ -20,6 +20,7 @@ from diagnosis.check.beside import Compared, compare
 from diagnosis.check.check import doubts_of
 from diagnosis.check.ends import with_ends
 from diagnosis.check.input_rows import with_input_rows, with_instants
+from diagnosis.check.odd_one_out import ALL_CHANNELS
 from diagnosis.clocks import clocks_once_recalibrated
 from diagnosis.experiment.design import next_experiment
 from diagnosis.faults.model import with_faults
@@ -328,10 +329,18 @@ def _doubts(
         return found
     refitted = Refitted(model, judge, compared)
     again = clocks_once_recalibrated(refitted)
-    told = {d.recording for d in (*found, *again) if d.is_serious or d.kind == ODD}
-    again += apart_once_refitted(refitted, told)
+    told = {d.recording for d in (*found, *again) if d.is_serious or (d.kind == ODD and not _is_open(d))}
+    open_ones = {d.recording for d in found if _is_open(d)}
+    apart = [d for d in apart_once_refitted(refitted, told) if not _is_open(d) or d.recording not in open_ones]
+    again += apart
     known = {(d.recording, d.subject, d.kind) for d in again}
-    return (*again, *(d for d in found if (d.recording, d.subject, d.kind) not in known))
+    left = [d for d in found if (d.recording, d.subject, d.kind) not in known]
+    return (*again, *(d for d in left if not _is_open(d) or d.recording not in {a.recording for a in apart}))
+
+
+def _is_open(doubt: Doubt) -> bool:
+    """Whether a doubt says that a recording stands out, and not what of it is off."""
+    return doubt.kind == ODD and doubt.subject == ALL_CHANNELS
 
 
 def _unsearched(

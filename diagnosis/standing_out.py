@@ -15,7 +15,7 @@ from functools import partial
 from diagnosis.check.beside import Compared
 from diagnosis.check.changed_rig import changed_rig
 from diagnosis.check.late_input import late_input
-from diagnosis.check.odd_one_out import MET, SAME, TIMES, as_explained, comparable, left, left_beside
+from diagnosis.check.odd_one_out import ALL_CHANNELS, MET, SAME, TIMES, as_explained, comparable, left, left_beside
 from diagnosis.check.other_course import other_course
 from diagnosis.check.other_number import other_number
 from diagnosis.check.sensor_of_one import explained_by_sensor
@@ -112,7 +112,7 @@ def _apart(one: Compared, others: Sequence[Compared]) -> tuple[Doubt, bool] | No
     text = f"{_FITTED} the scenario explains {told} and {percent(max(1.0 - mine, 0.0))} of "
     text += "this one's"
     missed = [n for n, b in channels.items() if left(b, b.simulated_there) > as_explained(theirs)]
-    subject, remedy, begin, end, sensor = "all channels", _RIG, one.begin, one.end, None
+    subject, remedy, begin, end, sensor = ALL_CHANNELS, _RIG, one.begin, one.end, None
     if len(missed) == 1:
         (subject,) = missed
         text += f", where {subject} alone is missed" if len(channels) > 1 else ""

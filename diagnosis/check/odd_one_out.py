@@ -22,6 +22,8 @@ from diagnosis.report.display import instant
 
 #: Share of their variance that the scenario explains of the others, all numbers as they are.
 MET = 0.95
+#: What a doubt is about where it is not known what of the recording is off.
+ALL_CHANNELS = "all channels"
 #: How many times more of its variance is left of a recording that stands out, and how much of it at least: any model
 #: leaves a hundredth (`diagnosis.check.beside.DISCREPANCY`).
 TIMES, LEAST = 10.0, 0.01
@@ -92,7 +94,7 @@ def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
             )
             is_serious = False
         title = one.recording.title
-        found.append(Doubt(title, "all channels", ODD, text, remedy, is_serious, one.begin, one.end, z))
+        found.append(Doubt(title, ALL_CHANNELS, ODD, text, remedy, is_serious, one.begin, one.end, z))
     return found
 
 

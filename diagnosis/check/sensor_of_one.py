@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from diagnosis.check.factors import best_logarithm
 from diagnosis.check.odd_one_out import as_explained, comparable, left, left_beside, scaled_left
 from diagnosis.check.timing import between, percent
 from diagnosis.judge.diagnosis import Doubt
+from diagnosis.recording.equal_readings import ends_of_runs
 from diagnosis.report.display import instant
 from diagnosis.report.user_units import Units
 
@@ -28,6 +29,8 @@ LAGS = tuple(np.geomspace(2e-3, 0.3, 15).tolist())
 INSTANTS = 25
 #: Share of the readings that an offset has at least, and at most: the rest is another zero.
 SHORTEST, LONGEST = 0.03, 0.97
+#: Times that a sensor may stand still.
+OCCASIONS = 2
 #: How far from 1 a sensor's factor is none.
 SAME_SLOPE = 0.01
 
@@ -82,7 +85,8 @@ def explained_by_sensor(beside: Beside, enough: float, units: Units) -> Explaine
     scaled = _scaled(beside, units)
     if scaled.left <= enough:
         return scaled
-    found = min((_drift(beside, enough, units), _lag(beside), _offset(beside, enough, units)), key=lambda f: f.left)
+    shapes = [_drift(beside, enough, units), _lag(beside), _offset(beside, enough, units)]
+    found = min((*shapes, *_stuck(beside)), key=lambda f: f.left)
     return found if found.left <= enough else None
 
 
@@ -140,6 +144,28 @@ def _offset(beside: Beside, enough: float, units: Units) -> Explained:
     first, last = float(beside.times[begin]), float(beside.times[end - 1])
     what = f"was off by {_size(beside, box, enough, units)} from about {between(first, last)} s"
     return Explained(what, _left_with(beside, box), first, last)
+
+
+def _stuck(beside: Beside) -> Iterator[Explained]:
+    """One value, repeated once or twice: nothing is compared there."""
+    channel = beside.channel
+    runs = [(float(channel.times[a]), float(channel.times[b - 1])) for a, b in ends_of_runs(channel.values).T]
+    stretches: list[tuple[float, float]] = []
+    for _ in range(OCCASIONS):
+        every = {run: _without(beside, (*stretches, run)) for run in runs if run not in stretches}
+        lefts = {r: scaled_left(b, b.simulated_there) for r, b in every.items() if 2 * len(b.pick) > len(beside.pick)}
+        if not lefts:
+            return
+        run = min(lefts, key=lambda r: lefts[r])
+        stretches = sorted([*stretches, run])
+        what = f"stood still from {' and from '.join(f'{between(*s)} s' for s in stretches)}"
+        yield Explained(what, lefts[run], stretches[0][0], stretches[-1][1])
+
+
+def _without(beside: Beside, stretches: Sequence[tuple[float, float]]) -> Beside:
+    """The channel without the readings of stretches."""
+    is_in = np.any([(beside.times >= a) & (beside.times <= b) for a, b in stretches], axis=0)
+    return replace(beside, pick=beside.pick[~is_in])
 
 
 def _pairs(begins: AnyArray, ends: AnyArray) -> Iterator[tuple[int, int]]:

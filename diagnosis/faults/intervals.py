@@ -12,14 +12,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cosim.unit.protocol import AnyArray, Array
+from diagnosis.recording.equal_readings import ends_of_runs
 from diagnosis.search.posterior import HUBER
 from diagnosis.search.score import LEAST_VISIBLE
 
 #: Scatter, in deviations of the noise, up to which the readings of a sensor stand still. One that holds a value repeats
 #: it; where readings scatter as noise does, a sensor that works reads something that rests.
 STILL = 0.25
-#: Stretches of equal readings whose ends are tried, and samples on either side of an end that are.
-LONGEST_RUNS, MOST_NEAR = 16, 200
+#: Samples on either side of an end that are tried.
+MOST_NEAR = 200
 
 
 @dataclass(frozen=True)
@@ -233,12 +234,3 @@ def best_constant(
     apart = min(-(-count // pieces), MOST_NEAR)
     near = [np.arange(max(end - apart, 0), min(end + apart, count) + 1) for end in found[:2]]
     return between(np.unique(np.concatenate([*near])))
-
-
-def ends_of_runs(readings: Array, fewest: int) -> AnyArray:
-    """First sample and sample after the last of the longest stretches of so many equal readings, shape (2, runs)."""
-    edges = np.concatenate([[0], np.flatnonzero(np.diff(readings)) + 1, [len(readings)]])
-    lengths = np.diff(edges)
-    longest = np.argsort(-lengths, kind="stable")[:LONGEST_RUNS]
-    longest = longest[lengths[longest] >= fewest]
-    return np.stack([edges[longest], edges[longest + 1]])

@@ -12,8 +12,6 @@ from diagnosis.search.problem import Term, TermParameter
 
 #: Intervals of fewer samples than this are wild readings, which Huber's function deals with.
 FEWEST = 3
-#: Readings that a stuck sensor must hold: its value is taken from them, so that of a few wild ones it says nothing.
-FEWEST_EQUAL = 8
 #: Time constants and offsets of a clock that are tried, each twice the one before.
 LAGS = 10
 #: Share of a recording beyond which a sensor is not slower, nor its clock off.

@@ -7,12 +7,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 
 from cosim.unit.protocol import Array
-from diagnosis.faults.intervals import ends_of_runs
 from diagnosis.faults.law import (
     AGAIN,
     DRIFT,
     FEWEST,
-    FEWEST_EQUAL,
     HELD,
     LATE,
     LONGEST_LAG,
@@ -34,6 +32,7 @@ from diagnosis.faults.readings import ACTS, Readings, readings_of
 from diagnosis.faults.scan import held_scores, input_scores, sensor_scores
 from diagnosis.models.protocol import DiagnosisModel, Effect, Labelled, Scaled, Spot, unscaled
 from diagnosis.models.wrappers.wrapped import WrappedModel
+from diagnosis.recording.equal_readings import FEWEST_EQUAL, ends_of_runs
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Point, Term, TermParameter, strength_slopes
 from diagnosis.search.score import Projection, Scoring

@@ -14,7 +14,6 @@ from diagnosis.faults.intervals import Best, Pieces, best_constant, best_interva
 from diagnosis.faults.law import (
     DRIFT,
     FEWEST,
-    FEWEST_EQUAL,
     FEWEST_OF_DRIFT,
     OF_TIME,
     OFFSET,
@@ -25,6 +24,7 @@ from diagnosis.faults.law import (
 )
 from diagnosis.faults.readings import ACTS, Readings
 from diagnosis.models.protocol import Scaled
+from diagnosis.recording.equal_readings import FEWEST_EQUAL
 from diagnosis.search.fit import Fit
 from diagnosis.search.problem import Term
 from diagnosis.search.score import Projection, Score, Scoring

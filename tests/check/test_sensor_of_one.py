@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from cosim.scenario import load_scenario
@@ -82,6 +83,34 @@ def test_a_lag_explains_what_is_behind_one(tmp_path: Path) -> None:
     assert found is not None, told.statement
     assert float(found[1]) == pytest.approx(200.0, rel=0.1)
     assert sensor_of_one(every[0], every[1:]) is None
+
+
+def test_a_sensor_that_stands_still_twice_is_told_with_both_stretches(tmp_path: Path) -> None:
+    recordings = _recordings(tmp_path, _plain)
+    table = pd.read_csv(recordings[1] / "data.csv")
+    for begin, end in ((0.2, 0.35), (0.6, 0.8)):
+        rows = slice(int(begin * COUNT), int(end * COUNT))
+        table.loc[rows, "stack.bottom"] = table["stack.bottom"].iloc[rows.start]
+    table.to_csv(recordings[1] / "data.csv", index=False)
+    every = [compare(load_scenario(tmp_path / "scenario.yaml"), load_recording(r)) for r in recordings]
+    told = sensor_of_one(every[1], [every[0], every[2]])
+    assert told is not None
+    found = re.search(r"stood still from ([\d.]+) to ([\d.]+) s and from ([\d.]+) to ([\d.]+) s", told.statement)
+    assert found is not None, told.statement
+    assert [float(n) / END for n in found.groups()] == pytest.approx([0.2, 0.35, 0.6, 0.8], abs=0.01)
+    assert (told.begin, told.end) == (pytest.approx(0.2 * END, rel=0.02), pytest.approx(0.8 * END, rel=0.02))
+
+
+def test_readings_that_repeat_where_the_rig_rests_explain_nothing(tmp_path: Path) -> None:
+    """A few equal readings beside a sensor that is off: what is off is told, and no sensor that stands still."""
+    recordings = _recordings(tmp_path, _plain, sensor=_off)
+    table = pd.read_csv(recordings[1] / "data.csv")
+    table.loc[:12, "stack.bottom"] = table["stack.bottom"].iloc[0]
+    table.to_csv(recordings[1] / "data.csv", index=False)
+    every = [compare(load_scenario(tmp_path / "scenario.yaml"), load_recording(r)) for r in recordings]
+    told = sensor_of_one(every[1], [every[0], every[2]])
+    assert told is not None
+    assert "was off by" in told.statement
 
 
 def test_a_number_that_moves_both_channels_is_no_sensor(tmp_path: Path) -> None:

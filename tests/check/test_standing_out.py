@@ -14,9 +14,12 @@ import yaml
 
 from cosim.scenario import load_scenario
 from cosim.unit.protocol import Array
+from diagnosis import standing_out
 from diagnosis.candidates.registry import catalogue
+from diagnosis.check import check
 from diagnosis.check.beside import compare
 from diagnosis.check.check import doubts_of
+from diagnosis.check.odd_one_out import ALL_CHANNELS
 from diagnosis.judge.diagnosis import Doubt, Verdict
 from diagnosis.models.build import models_of
 from diagnosis.recording.recording import load_recording
@@ -40,6 +43,11 @@ def _drifting(x: Array) -> Array:
 
 def _off(x: Array) -> Array:
     return x + 0.05 * ((TIMES > 1.2) & (TIMES < 2.8))
+
+
+def _stuck(x: Array) -> Array:
+    is_in = (TIMES > 1.2) & (TIMES < 1.6)
+    return np.where(is_in, x[np.argmax(is_in)], x)
 
 
 def _other_range(x: Array) -> Array:
@@ -98,9 +106,10 @@ def _told(folder: Path, recordings: list[Path]) -> list[Doubt]:
     [
         (_drifting, r"as if this sensor drifted in proportion to time, by 0\.0[45]\d+ m \([\d.]+ to [\d.]+\)"),
         (_off, r"as if this sensor was off by 0\.0[45]\d+ m \([\d.]+ to [\d.]+\) from about 1\.2"),
+        (_stuck, r"as if this sensor stood still from 1\.2\d* to 1\.[56]\d* s, it is"),
         (_other_range, r"as if this sensor read 1\.2 times as much"),
     ],
-    ids=["drift", "offset", "range"],
+    ids=["drift", "offset", "stuck", "range"],
 )
 def test_the_recording_and_what_its_sensor_would_have_done(
     sensor: Callable[[Array], Array], words: str, number: int, tmp_path: Path
@@ -108,7 +117,8 @@ def test_the_recording_and_what_its_sensor_would_have_done(
     recordings = _spoiled(tmp_path, number, sensor)
     scenario = load_scenario(str(tmp_path / "scenario.yaml"))
     before = doubts_of([compare(scenario, load_recording(r)) for r in recordings])
-    assert not [d for d in before if d.kind == "odd one out"]  # the spring that is off hides it
+    # the spring that is off hides what it is
+    assert not [d for d in before if d.kind == "odd one out" and d.subject != ALL_CHANNELS]
     (told,) = _told(tmp_path, recordings)
     assert (told.recording, told.subject) == (f"run_{number + 1}", "rig.position")
     assert re.search(words, told.statement), told.statement
@@ -208,6 +218,34 @@ def test_a_diagnosis_says_which_recording_and_which_sensor_to_look_at(tmp_path: 
     reasons = " ".join((found.statement, *found.notes))
     assert "no law that was tried explains" not in reasons
     assert "to which laws are fitted, no more is left than noise explains" in reasons
+
+
+def test_what_the_check_leaves_open_is_asked_again_beside_fitted_numbers(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One doubt about the recording stays, with what is off."""
+    monkeypatch.setattr(check, "sensor_of_one", lambda one, others: None)
+    paths = _spoiled(tmp_path, 1, lambda x: x + 0.6 * TIMES / END)
+    scenario = load_scenario(str(tmp_path / "scenario.yaml"))
+    (before,) = [d for d in doubts_of([compare(scenario, load_recording(r)) for r in paths]) if d.kind == "odd one out"]
+    assert before.subject == ALL_CHANNELS
+    found = diagnosed(tmp_path / "scenario.yaml", [load_recording(r) for r in paths])
+    (doubt,) = [d for d in found.doubts if d.kind == "odd one out"]
+    assert doubt.subject == "rig.position"
+    assert "as if this sensor drifted" in doubt.statement
+
+
+def test_where_nothing_is_known_beside_fitted_numbers_either_it_is_said_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for ask in ("sensor_of_one", "unit_of_input", "size_of_input", "other_course", "other_number", "changed_rig"):
+        monkeypatch.setattr(check, ask, lambda one, others: None)
+    monkeypatch.setattr(standing_out, "_of_rig", lambda refitted, number: None)
+    paths = _driven(tmp_path, 1, lambda u: u, lambda x, v: -24.0 * x - 8.0 * v)
+    found = diagnosed(tmp_path / "scenario.yaml", [load_recording(r) for r in paths])
+    (doubt,) = [d for d in found.doubts if d.kind == "odd one out"]
+    assert (doubt.recording, doubt.subject) == ("run_2", ALL_CHANNELS)
+    assert doubt.statement.startswith("the scenario as it is")
 
 
 def test_twins_of_one_title_are_not_left_out_of_the_fit(tmp_path: Path) -> None:
