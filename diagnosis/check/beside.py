@@ -23,7 +23,7 @@ from diagnosis.check.starts import runs_from_starts
 from diagnosis.models.systems.run import run_quickly
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import FEWEST_VALUES, Channel, Recording
-from diagnosis.recording.series import Series, sample, series_of
+from diagnosis.recording.series import MOST, Series, sample, series_of
 from diagnosis.report.user_units import Units, written_units
 from diagnosis.search.free_numbers import check_stated
 
@@ -324,13 +324,29 @@ def _settled(channel: Channel, recording: Recording, courses: Sequence[Course], 
     """The channel as it can be compared where it follows an input at once, with a noise that nobody stated."""
     if results is None or channel.later:
         return channel
-    series = series_of(results, channel.target, recording.path / "recording.yaml")
+    source = recording.path / "recording.yaml"
+    series = series_of(results, channel.target, source)
+    _check_finite(series, channel, source)
     if channel.target.is_component:
         channel = settled(channel, series, held_inputs(courses))
     if channel.is_deviation_given:
         return channel
     noise = quieter(channel, series)
     return replace(channel, deviation=noise) if noise < QUIETER * channel.deviation else channel
+
+
+def _check_finite(series: Series, channel: Channel, source: Path) -> None:
+    """Raises `InputError` where a simulation has run away."""
+    away = np.flatnonzero(~np.isfinite(series.values))
+    if len(away):
+        raise InputError(
+            source,
+            f"channels.{channel.name}",
+            f"the simulation of this recording runs away: from {series.times[away[0]]:.6g} s on its values are beyond "
+            f"{MOST:g} or no numbers",
+            "an FMU that integrates itself may be unstable under these inputs: a shorter `time.macro_step` helps where "
+            "its steps are that long; else export it with shorter ones, or for Model Exchange",
+        )
 
 
 def _beside(channel: Channel, runs: Sequence[xr.Dataset], source: Path) -> Beside:
@@ -340,13 +356,8 @@ def _beside(channel: Channel, runs: Sequence[xr.Dataset], source: Path) -> Besid
         return Beside(channel, None, pick, np.zeros(0), np.zeros((0, 0)))
     every = [series_of(results, channel.target, source) for results in runs]
     values = np.array([one.values for one in every])
-    if not np.isfinite(values).all():
-        raise InputError(
-            source,
-            f"channels.{channel.name}",
-            "the simulation gives values that are not finite",
-            "run the scenario by itself with `cosim run`",
-        )
+    for one in every:
+        _check_finite(one, channel, source)
     series = replace(every[0], values=values.mean(axis=0)) if len(runs) > 1 else every[0]
     span = float(channel.times[-1] - channel.times[0])
     least = 2.0 * float(np.median(np.diff(channel.times)))
