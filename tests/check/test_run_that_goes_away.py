@@ -15,8 +15,8 @@ from diagnosis.recording.recording import load_recording
 from evaluation.fmus.model import OdeModel
 from tests.systems.rigs import built, write_recording
 
-#: Time from which the input is so large that steps of 1 ms of the classical Runge-Kutta method are unstable [s], and the
-#: rate then: beyond 2.785 over the step, by so little that no number overflows.
+#: Time from which the input is so large that steps of 1 ms of the classical Runge-Kutta method are unstable [s];
+#: its rate then: beyond 2.785 over the step, by so little that no number overflows.
 SINCE, UNSTABLE = 30.0, 2790.0
 LAMP = OdeModel(
     "lamp",
