@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
@@ -284,7 +285,7 @@ def _variables(network: Network) -> list[Variable]:
     coil, string = (network.coils,), (len(network.strings),)
     is_common = network.supply == "common"
     into, out = Causality.INPUT, Causality.OUTPUT
-    return [
+    found = [
         Variable(
             "supply_voltage",
             into,
@@ -309,6 +310,7 @@ def _variables(network: Network) -> list[Variable]:
         Variable("supply_current", out, (), "A", (), "Current out of all sources together"),
         Variable("supply_power", out, (), "W", (), "Power of all sources, with the loss in their series resistance"),
     ]
+    return [replace(v, is_mean=True) if v.causality is out else v for v in found]
 
 
 def _coordinates(network: Network) -> dict[str, Coordinate]:

@@ -13,6 +13,7 @@ from cosim.observers.channels import Channel, recorded_channels
 from cosim.observers.storage import Storage
 from cosim.system import System
 from cosim.unit.protocol import AnyArray, Coordinate, Variable, VariableType, seconds
+from cosim.unit.variable import MEAN
 
 #: Times are converted to seconds in pieces of so many.
 _TIMES_AT_ONCE = 1 << 16
@@ -100,12 +101,14 @@ class Trace:
         return xr.Dataset(variables, dict(self.coordinates()))
 
     def attributes(self, channel: Channel) -> dict[str, str]:
-        """What a file says of a channel: long_name, units, comment."""
+        """What a file says of a channel, by the CF conventions: long_name, units, comment, cell_methods."""
         attributes = {"long_name": channel.variable.description or channel.name}
         if channel.variable.type.is_number:  # text, switches and enumerations have no unit
             attributes["units"] = channel.variable.unit
         if channel.variable.type is VariableType.BINARY:
             attributes["comment"] = "bytes in hexadecimal"
+        if channel.variable.is_mean:
+            attributes["cell_methods"] = MEAN
         return attributes
 
     def coordinates(self) -> dict[str, tuple[tuple[str, ...], AnyArray, dict[str, str]]]:

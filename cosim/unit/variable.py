@@ -24,6 +24,10 @@ class Causality(Enum):
     LOCAL = "local"
 
 
+#: What a file says of the mean over the step that ends at its time, by the CF conventions (`cell_methods`).
+MEAN = "time: mean"
+
+
 class VariableType(Enum):
     """Type of a variable, with the names of FMI 3.0. FMI 2.0: Real is Float64, Integer is Int32."""
 
@@ -98,6 +102,7 @@ class Variable:
         type: Type of the elements.
         first_index: Number of the first element in the names that a user writes: 1, or 0 for an array gathered from
             FMI 2.0 scalars `x[0]`, `x[1]`, ...
+        is_mean: Whether it is the mean over the step that ends at its time.
     """
 
     name: str
@@ -110,6 +115,7 @@ class Variable:
     recorded: bool = True
     type: VariableType = VariableType.FLOAT64
     first_index: int = 1
+    is_mean: bool = False
 
     def __post_init__(self) -> None:
         if len(self.dims) != len(self.shape):

@@ -32,7 +32,7 @@ from diagnosis.models.coil_network.translate import Translation, translate
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.quantity import parse_quantity
 from diagnosis.recording.recording import Recording
-from diagnosis.recording.series import series_of
+from diagnosis.recording.series import recorded_series
 from diagnosis.search.cosim_run import shifted
 
 
@@ -211,7 +211,7 @@ def _made(results: xr.Dataset, translation: Translation, quantity: str) -> Array
         values = np.asarray(results[f"{translation.circuit}.terminal_voltage"].values, dtype=np.float64)
     else:
         targets = [parse_quantity(_MADE[quantity].format(n + 1)) for n in range(layout.elements(quantity))]
-        values = np.stack([series_of(results, t, source).values for t in targets], axis=1)
+        values = np.stack([recorded_series(results, t, source).values for t in targets], axis=1)
     values = values.copy()
     values[0] = values[1]  # before the first step nothing flows
     return np.ascontiguousarray(values)

@@ -172,7 +172,7 @@ def set_beside(
     plain = differ(other)
     share = float(plain.mean())
     kind, factor, offset, shift = "equal", 1.0, 0.0, 0.0
-    if share > 0.0:
+    if share > LEFT:
         power = float(other @ other)
         scale = float(own @ other) / power if power else 1.0
         level = float(np.median(own - other))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -12,6 +12,7 @@ import xarray as xr
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Array
 from cosim.unit.quantity import conversion
+from cosim.unit.variable import MEAN
 from diagnosis.recording.quantity import TELLING, Target, is_numbered
 from diagnosis.recording.units import PURE, instead
 
@@ -60,7 +61,7 @@ class Series:
 
 
 def series_of(results: xr.Dataset, target: Target, source: Path) -> Series:
-    """Find what a channel measures.
+    """What a channel measures, at the times of the outputs: of a mean over a step the value at its end.
 
     Args:
         results: Of `cosim.run`.
@@ -70,6 +71,37 @@ def series_of(results: xr.Dataset, target: Target, source: Path) -> Series:
     Raises:
         InputError: The results have no such quantity or element.
     """
+    found = recorded_series(results, target, source)
+    is_mean = place_of(results, target, source)[0].attrs.get("cell_methods") == MEAN
+    if not is_mean or "macro_step_s" not in results.attrs:
+        return found
+    return replace(found, values=_at_ends(found.values, found.times, float(results.attrs["macro_step_s"])))
+
+
+def _at_ends(means: Array, times: Array, step: float) -> Array:
+    """Values at the ends of steps whose means are known: by the harmonic mean of the slopes to both sides.
+
+    It is nothing where they have opposite signs, and at a jump little more than that of the other side.
+
+    Args:
+        means: Over the step that ends at each time, shape (outputs,); the first is the value at the start.
+        times: Of the outputs [s].
+        step: Length of a step [s].
+
+    Source: B. van Leer, J. Comput. Phys. 14 (1974) 361-370 and 32 (1979) 101-136 (means of cells, limited slopes).
+    """
+    if len(means) < 3:
+        return means
+    slopes = np.diff(means) / np.diff(times)
+    before, after = slopes[:-1], slopes[1:]
+    is_alike = before * after > 0.0
+    found = means.copy()
+    found[1:-1] += step * np.where(is_alike, before * after / np.where(is_alike, before + after, 1.0), 0.0)
+    return found
+
+
+def recorded_series(results: xr.Dataset, target: Target, source: Path) -> Series:
+    """What the results have of a quantity; arguments and errors as in `series_of`."""
     found, index = place_of(results, target, source)
     values = np.asarray(found.values, dtype=np.float64).reshape(len(found), -1)[:, index]
     own = str(found.attrs.get("units", "1"))
@@ -121,8 +153,9 @@ def _derived(results: xr.Dataset) -> dict[str, xr.DataArray]:
         terminal = results[name].values
         terminal = terminal[:, None] if terminal.ndim == 1 else terminal
         power = (terminal * current.values).sum(axis=1)
-        found[f"{circuit}.string_voltage"] = xr.DataArray(across, dims=current.dims, attrs={"units": "V"})
-        found[f"{circuit}.terminal_power"] = xr.DataArray(power, dims=current.dims[:1], attrs={"units": "W"})
+        about = {k: v for k, v in current.attrs.items() if k == "cell_methods"}
+        found[f"{circuit}.string_voltage"] = xr.DataArray(across, dims=current.dims, attrs={"units": "V", **about})
+        found[f"{circuit}.terminal_power"] = xr.DataArray(power, dims=current.dims[:1], attrs={"units": "W", **about})
     return found
 
 

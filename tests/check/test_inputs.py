@@ -149,3 +149,19 @@ def test_a_course_is_not_that_of_a_programme_that_stays(unit: str, constant: flo
     found = set_beside("a", "drive", unit, (recorded, stays), (0.0, 1700.0), 4.0, False)
     assert found.kind == "other"
     assert sum(end - begin for begin, end in found.stretches) > 0.8 * 1700.0
+
+
+def test_a_course_that_is_the_programme_but_for_a_moment_agrees() -> None:
+    """It was told as "1 times as high": a factor of 1 explains as much as the programme itself."""
+
+    def stated(at: Array) -> Array:
+        return np.where(at < 50.0, 2.0, 4.0)
+
+    def recorded(at: Array) -> Array:
+        return np.where((at > 80.0) & (at < 81.5), 3.0, stated(at))
+
+    found = set_beside("a", "drive", "V", (recorded, stated), (0.0, 100.0), 0.1, True)
+    assert 0.0 < found.share < 0.02
+    assert (found.kind, how(found)) == ("equal", "agrees")
+    twice = set_beside("a", "drive", "V", (lambda at: 2.0 * stated(at), stated), (0.0, 100.0), 0.1, True)
+    assert how(twice) == "is 2 times as high"

@@ -42,6 +42,34 @@ def read(sensor: Sensor, series: Series = RAMP, seed: int = 0):
     return read_with(sensor, series, np.random.default_rng(seed))
 
 
+def test_the_end_of_a_step_is_told_from_means_and_a_jump_stays_one():
+    """An exponential after a switch, by exact means over steps of 0.1 s; outputs at each step, or each second one."""
+    tau, step = 0.8, 0.1
+
+    def made(every: int) -> tuple[xr.Dataset, np.ndarray]:
+        ends = step * np.arange(81)
+        decay = np.where(ends > 4.0, np.exp(-np.maximum(ends - 4.0, 0.0) / tau), 1.0)
+        area = np.minimum(ends, 4.0) + tau * (1.0 - np.exp(-np.maximum(ends - 4.0, 0.0) / tau))
+        means = np.concatenate([[1.0], np.diff(area) / step])[::every]
+        about = {"units": "A", "cell_methods": "time: mean"}
+        data = {"circuit.supply_current": ("time", means, about)}
+        results = xr.Dataset(data, {"time": ("time", ends[::every])}, {"macro_step_s": step})
+        return results, decay[::every]
+
+    for every in (1, 2):
+        results, exact = made(every)
+        found = series_of(results, parse_quantity("supply.current"), Path("x")).values
+        means = results["circuit.supply_current"].values
+        away = slice(40 // every + 2, -1)
+        off, before = np.abs(found - exact)[away], np.abs(means - exact)[away]
+        assert off.max() < 0.1 * before.max()
+        np.testing.assert_allclose(found[: 40 // every + 1], 1.0, atol=1e-12)
+        assert "cell_methods" not in results["time"].attrs
+    results.attrs.pop("macro_step_s")
+    plain = series_of(results, parse_quantity("supply.current"), Path("x")).values
+    np.testing.assert_array_equal(plain, results["circuit.supply_current"].values)
+
+
 def test_a_perfect_recording_is_the_run_itself(tmp_path):
     results = run(pendulum())
     sensors = SensorFile.model_validate({"default": {"rate": "200 Hz"}})

@@ -19,7 +19,11 @@ from diagnosis.models.coil_network.kernel.network import CoilNetwork
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.stated import stated_candidates, stated_terms
 from diagnosis.models.coil_network.translate import translate
+from diagnosis.recording.done import conditions
+from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import load_recording
+from diagnosis.recording.sensor import SensorFile
+from diagnosis.recording.write import Notes, write_recording
 from diagnosis.search.problem import Point
 from diagnosis.search.search import recalibrate
 
@@ -115,6 +119,34 @@ def test_a_rig_with_a_stated_limit_is_simulated_fast_and_agrees_with_its_recordi
     assert not any("stated" in t.identifier for t in model.terms())
     base = Point(np.zeros(len(model.parameters)))
     assert np.isfinite(model.residuals([base.plus(t, [p.starts[0] for p in t.parameters]) for t in limits])).all()
+
+
+def test_a_recording_of_a_rig_with_a_slow_source_is_met_by_the_fast_simulation(tmp_path: Path):
+    """The co-simulation gives the mean over each macro-step; what is recorded of it is the value at its end."""
+    slow = {"kind": "slow_source", "supply": 1, "delay": "0.4 s"}
+    steps = {"unit": "V", "dim": "string", "points": [["0 s", ["2 V", "1 V"]], ["2 s", ["0.5 V", "1 V"]]]}
+    data = changed(
+        {
+            **TWO_SUPPLIES,
+            "components.supply.outputs.voltage": steps,
+            "components.circuit.elements": [slow],
+            "time.macro_step": "50 ms",
+            "time.output_step": "50 ms",
+        }
+    )
+    path = tmp_path / "scenario.yaml"
+    path.write_text(yaml.safe_dump(data))
+    scenario = load_scenario(path)
+    sensors = SensorFile.model_validate({"default": {"rate": "20 Hz"}})
+    read = read_results(run(scenario), ["string[1].current"], sensors, 0, path)
+    write_recording(tmp_path / "day", read, Notes("day", "made", conditions(scenario)))
+    model = model_of(scenario, [load_recording(tmp_path / "day")], catalogue(), 1)
+    assert isinstance(model, CoilNetworkModel)
+    (simulated,) = model.predict(Point(np.zeros(len(model.parameters))), 0)
+    measured = model.runs[0].series[0].channel.values[-len(simulated) :]
+    late = np.concatenate([measured[:1], 0.5 * (measured[1:] + measured[:-1])])
+    off, half = (float(np.sqrt(np.mean((simulated - values) ** 2))) for values in (measured, late))
+    assert off < 0.15 * half  # half a step later they are that much farther away
 
 
 @pytest.mark.parametrize(
