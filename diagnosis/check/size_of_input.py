@@ -2,8 +2,8 @@
 
 A course that is stated under `overrides` has no column whose unit could be read otherwise, and a pump that is worn has
 no unit. Where the scenario meets the other recordings and not this one, the course of each input is taken so many
-times as large in it. What then explains every channel as well as the others are explained is what to look at first;
-where the factor is that to another unit of the quantity, the unit is said.
+times as large in it, or with the opposite sign. What then explains every channel as well as the others are explained is
+what to look at first; where the factor is that to another unit of the quantity, the unit is said.
 """
 
 from __future__ import annotations
@@ -69,8 +69,8 @@ def size_of_input(one: Compared, others: Sequence[Compared]) -> Doubt | None:
         return None
     moving = [c for c in of_one_element(one) if np.ptp(c.values) > 0.0]
     with closing(InputRuns(one)) as runs:
-        every = [_sized(runs, channels, course) for course in moving]
-    found = [s for s in every if s.left <= enough and abs(math.log(s.factor)) > LEAST]
+        every = [s for course in moving for s in (_sized(runs, channels, course), _turned(runs, channels, course))]
+    found = [s for s in every if s.left <= enough and (s.factor < 0.0 or abs(math.log(s.factor)) > LEAST)]
     return _doubt(one, found[0], before, is_within(one, others)) if len(found) == 1 else None
 
 
@@ -78,21 +78,37 @@ def _sized(runs: InputRuns, channels: dict[str, Beside], course: Course) -> _Siz
     """How many times as large an input explains most of the channel that it explains least."""
 
     def cost(logarithm: float) -> float:
-        try:
-            readings = runs.readings(channels, (given_as(course, course.times, math.exp(logarithm) * course.values),))
-        except RunStopped:
-            return math.inf
-        return max(left(b, part) for b, part in zip(channels.values(), parts_of(channels, readings)))
+        return _left(runs, channels, course, math.exp(logarithm))
 
     logarithm, least = best_logarithm(cost, [math.log(f) for f in FACTORS])
     return _Sized(course, math.exp(logarithm), least)
 
 
+def _turned(runs: InputRuns, channels: dict[str, Beside], course: Course) -> _Sized:
+    """The input with the opposite sign; nothing of an input that has one sign throughout, which its unit gives it."""
+    is_of_both = np.min(course.values) < 0.0 < np.max(course.values)
+    return _Sized(course, -1.0, _left(runs, channels, course, -1.0) if is_of_both else math.inf)
+
+
+def _left(runs: InputRuns, channels: dict[str, Beside], course: Course, factor: float) -> float:
+    """Share of the variance that is left of the channel that an input explains least, so many times as large."""
+    try:
+        readings = runs.readings(channels, (given_as(course, course.times, factor * course.values),))
+    except RunStopped:
+        return math.inf
+    return max(left(b, part) for b, part in zip(channels.values(), parts_of(channels, readings)))
+
+
 def _doubt(one: Compared, found: _Sized, before: float, is_within_others: bool) -> Doubt:
-    name, units = found.course.name, found.units
+    name = found.course.name
+    place = f"`inputs.{name}`" if found.course.is_recorded else f"the course of {name} under `overrides`"
+    if found.factor < 0.0:
+        remedy = f"was it connected the other way round, or is its sign another convention? Correct {place}"
+        what = f"with the opposite sign of what is stated of {name}"
+        return explained_with(one, "sign", name, what, (before, found.left), remedy)
+    units = found.units
     as_if = f", as if it were in {' or '.join(units)} and not in {found.course.unit}," if units else ""
     what = f"with {found.factor:.3g} times what is stated of {name}{as_if}"
-    place = f"`inputs.{name}`" if found.course.is_recorded else f"the course of {name} under `overrides`"
     remedy = f"in what was it written, or did it act by another size? Correct {place} of this recording"
     kind, is_serious = ("unit", True) if units else ("number", is_within_others)
     return explained_with(one, kind, name, what, (before, found.left), remedy, is_serious)

@@ -257,7 +257,8 @@ def held_scores(
         if term in known:
             tried = np.argsort(-gains_of(known[term].astype(np.float64)), kind="stable")[:HELD_AGAIN]
         changes = moved(term, intervals[tried])[:, own]
-        known.setdefault(term, changes.astype(np.float32))
+        with np.errstate(over="ignore"):  # of a run that goes away; its gain is none
+            known.setdefault(term, changes.astype(np.float32))
         gains = gains_of(changes)
         best = int(np.argmax(gains))
         found.tried += len(intervals)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from cosim.run import RunStopped
 from cosim.scenario import load_scenario
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import conversion
+from diagnosis.check import size_of_input as size_of_input_module
 from diagnosis.check.beside import Compared, compare
 from diagnosis.check.input_runs import InputRuns
 from diagnosis.check.size_of_input import size_of_input
@@ -88,3 +90,14 @@ def test_an_input_that_stays_has_no_size_that_could_be_told(tmp_path: Path) -> N
     still = replace(one, courses=(replace(course, values=np.full_like(course.values, 20.0)),))
     assert size_of_input(one, others) is not None
     assert size_of_input(still, others) is None
+
+
+def test_an_input_of_one_sign_is_not_asked_for_the_other(tmp_path: Path) -> None:
+    """A heater takes no power back: its unit gives the sign, and nothing is simulated."""
+    recordings = _recordings(tmp_path, 1.0, 0.6)
+    one = compare(load_scenario(str(tmp_path / "scenario.yaml")), load_recording(recordings[1]))
+    (course,) = one.courses
+    with closing(InputRuns(one)) as runs:
+        assert size_of_input_module._turned(runs, one.channels, course).left == np.inf
+        both = replace(course, values=course.values - 10.0)
+        assert np.isfinite(size_of_input_module._turned(runs, one.channels, both).left)

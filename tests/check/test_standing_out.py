@@ -248,6 +248,31 @@ def test_where_nothing_is_known_beside_fitted_numbers_either_it_is_said_once(
     assert doubt.statement.startswith("the scenario as it is")
 
 
+@pytest.mark.parametrize("number", [1, 2], ids=["fitted", "held out"])
+def test_an_input_of_the_opposite_sign_is_told(number: int, tmp_path: Path) -> None:
+    (told,) = _told(tmp_path, _driven(tmp_path, number, lambda u: -u))
+    assert (told.recording, told.subject, told.kind) == (f"run_{number + 1}", "drive.u", "sign")
+    assert "with the opposite sign of what is stated of drive.u" in told.statement
+    assert told.is_serious
+
+
+@pytest.mark.parametrize("number", [1, 2], ids=["fitted", "held out"])
+def test_a_recording_of_which_hardly_anything_is_explained_is_not_of_the_experiment(
+    number: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its drive was played backwards; where no other course is asked for, it is a recording of something else."""
+    monkeypatch.setattr(standing_out, "_of_rig", lambda refitted, number: None)
+    (told,) = _told(tmp_path, _driven(tmp_path, number, lambda u: u[::-1].copy()))
+    assert (told.recording, told.subject, told.is_serious) == (f"run_{number + 1}", ALL_CHANNELS, True)
+
+
+def test_what_acts_beyond_what_the_others_reach_may_be_a_law(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(standing_out, "_of_rig", lambda refitted, number: None)
+    monkeypatch.setattr(standing_out, "is_within", lambda one, others: False)
+    (told,) = _told(tmp_path, _driven(tmp_path, 1, lambda u: u[::-1].copy()))
+    assert not told.is_serious
+
+
 def test_twins_of_one_title_are_not_left_out_of_the_fit(tmp_path: Path) -> None:
     refitted = _refitted(tmp_path, _spoiled(tmp_path, 1, _drifting))
     twins = [replace(one, recording=replace(one.recording, title="run")) for one in refitted._compared]
