@@ -45,9 +45,9 @@ AS_IT_IS, RECALIBRATED = "the scenario as it is", "the scenario with its numbers
 ABOUT = (0.2, 2.0)
 #: Standard normal quantile of 97.5 %.
 _QUANTILE = 1.959964
-#: Lags that are tried, as shares of the longest, and -2 log likelihood by which a lag and a clock are told apart: one
-#: of 20,000 by chance.
-LAGS, APART = tuple(np.geomspace(1e-3, 1.0, 25).tolist()), 20.0
+#: Lags that are tried, as shares of the readings' duration: a lag moves less than a clock that is off by as much, so
+#: that longer ones are. -2 log likelihood by which a lag and a clock are told apart: one of 20,000 by chance.
+LAGS, APART = tuple(np.geomspace(3e-5, 0.3, 33).tolist()), 20.0
 
 
 @dataclass(frozen=True)
@@ -148,6 +148,8 @@ def _by_share(one: Compared, others: Sequence[Compared], simulated: str, counted
         every = (clock, _jumped(beside, clock, counted), _lag(beside, counted))
         found = [r for r in every if r is not None and TIMES * r.left <= left and r.left <= MET]
         told_apart = _best(beside, found)
+        if any(isinstance(r, _Lag) and r.is_open for r in told_apart):
+            continue  # something is slower than any sensor that is asked for
         # rows that were written late move all that follows their input, and not one channel alone
         row = 0.0 if is_alone and len(one.switches()) >= CHANGES else _row(one)
         # what the others do not notice may be theirs too: a number that is off shows most where a run is long
@@ -200,10 +202,12 @@ class _Lag:
     Args:
         lag: Time constant [s].
         left: Share of the variance that it leaves of the channel.
+        is_open: Whether it is the longest that is tried: a longer one may leave less.
     """
 
     lag: float
     left: float
+    is_open: bool = False
 
     def rest(self, beside: Beside) -> Array:
         """What it leaves of any recording of the channel, SI."""
@@ -273,13 +277,14 @@ def _jumped(beside: Beside, clock: _Clock | None, counted: float) -> _Jumped | N
 
 
 def _lag(beside: Beside, counted: float) -> _Lag | None:
-    """The first-order lag that leaves least of a channel; None where that is the shortest or the longest tried."""
-    longest = LONGEST * float(np.ptp(beside.times))
-    tried = [longest * share for share in LAGS]
+    """The first-order lag that leaves least of a channel; None where that is the shortest tried."""
+    tried = [float(np.ptp(beside.times)) * share for share in LAGS]
     left = [_left_of(beside, beside.measured - beside.behind(lag), counted) for lag in tried]
     best = int(np.argmin(left))
-    if best in (0, len(tried) - 1):
+    if best == 0:
         return None
+    if best == len(tried) - 1:
+        return _Lag(tried[best], left[best], is_open=True)
     ends = float(np.log(tried[best - 1])), float(np.log(tried[best + 1]))
     finer = minimize_scalar(
         lambda x: _left_of(beside, beside.measured - beside.behind(float(np.exp(x))), counted),

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.ndimage import median_filter
 
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
@@ -30,6 +31,9 @@ TIMES, LEAST = 10.0, 0.01
 #: Share of the variance of a channel that is left, scaled and shifted as suits best, of a recording one of whose
 #: inputs hardly is the one that acted: the same numbers explain the others.
 HALF = 0.5
+#: Readings of a running median, so that two in a row do not move it; how many times the scatter a wild reading is off,
+#: and the largest share of such; deviation of a normal distribution over its median absolute deviation.
+WINDOW, WILD, MOST_WILD, MAD = 5, 6.0, 0.02, 1.4826
 #: How many times what the others leave a recording may leave that is explained, and what is explained in any case.
 ALIKE, SAME = 2.0, 1e-3
 #: Share of the range of the others by which a recording may go beyond it, and how much faster it may change.
@@ -203,12 +207,31 @@ def _left(one: Compared) -> list[_Left]:
 
 
 def comparable(one: Compared) -> dict[str, Beside]:
-    """Channels whose noise is less of their variance than what a recording that is met may leave."""
+    """Channels whose noise is less of their variance than what a recording that is met may leave.
+
+    They are without wild readings: one that is off alone, or two in a row, is no other input, number or sensor.
+    """
     return {
         name: b
-        for name, b in one.channels.items()
-        if b.is_comparable and b.floor**2 < (1.0 - MET) * float(np.var(b.measured))
+        for name, found in one.channels.items()
+        if found.is_comparable and (b := _without_wild(found)).floor ** 2 < (1.0 - MET) * float(np.var(b.measured))
     }
+
+
+def _without_wild(beside: Beside) -> Beside:
+    """The channel without the readings that are off alone, or two in a row; all of them where these are many.
+
+    Source: running medians, F. R. Hampel, J. Am. Stat. Assoc. 69 (1974) 383-393; median absolute deviation as a scale.
+    """
+    if "tame" not in beside.memo:
+        misfit = beside.measured - beside.simulated_there
+        apart = np.abs(misfit - median_filter(misfit, size=WINDOW, mode="nearest"))
+        is_wild = apart > WILD * max(MAD * float(np.median(apart)), beside.floor)
+        few = 0 < np.count_nonzero(is_wild) <= MOST_WILD * len(misfit)
+        beside.memo["tame"] = replace(beside, pick=beside.pick[~is_wild]) if few else beside
+    found = beside.memo["tame"]
+    assert isinstance(found, Beside)
+    return found
 
 
 def left(beside: Beside, simulated: Array) -> float:

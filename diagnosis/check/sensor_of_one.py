@@ -54,11 +54,12 @@ def sensor_of_one(one: Compared, others: Sequence[Compared]) -> Doubt | None:
     """
     before, theirs = left_beside(one, others, scaled_left)
     enough = as_explained(theirs)
-    missed = [n for n, b in comparable(one).items() if scaled_left(b, b.simulated_there) > enough]
+    channels = comparable(one)
+    missed = [n for n, b in channels.items() if scaled_left(b, b.simulated_there) > enough]
     if len(missed) != 1:
         return None
     (name,) = missed
-    found = explained_by_sensor(one.channels[name], enough, one.units_of(name))
+    found = explained_by_sensor(channels[name], enough, one.units_of(name))
     if found is None:
         return None
     text = (

@@ -97,6 +97,19 @@ def test_a_recording_that_is_met_but_for_a_sensor_is_searched_all_the_same(tmp_p
     assert least <= offset <= most
 
 
+@pytest.mark.parametrize(("count", "is_told"), [(4, False), (1, False), (40, True)])
+def test_single_wild_readings_make_no_odd_one(count: int, is_told: bool, tmp_path: Path) -> None:
+    """Four of 400 readings by a metre or so; forty are a fault."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0)
+    table = pd.read_csv(recordings[1] / "data.csv")
+    rng, last = np.random.default_rng(3), table.columns[-1]
+    rows = rng.choice(np.arange(5, COUNT - 5), count, replace=False)
+    table.loc[rows, last] += rng.choice([-1.0, 1.0], count) * rng.uniform(2.0, 4.0, count) * float(np.std(table[last]))
+    table.to_csv(recordings[1] / "data.csv", index=False)
+    assert {d.recording for d in _doubts(tmp_path, recordings)} == ({"run_2"} if is_told else set())
+
+
 def test_a_recording_in_which_little_moves_is_no_odd_one(tmp_path: Path) -> None:
     """Friction that the model lacks takes most of a small motion: no more of its unit than of a large one."""
     oscillator(tmp_path)
