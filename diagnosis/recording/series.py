@@ -71,11 +71,11 @@ def series_of(results: xr.Dataset, target: Target, source: Path) -> Series:
     Raises:
         InputError: The results have no such quantity or element.
     """
-    found = recorded_series(results, target, source)
-    is_mean = place_of(results, target, source)[0].attrs.get("cell_methods") == MEAN
-    if not is_mean or "macro_step_s" not in results.attrs:
+    found, is_mean = _read_from(results, target, source)
+    step = results.attrs.get("macro_step_s")
+    if not is_mean or step is None or not np.isfinite(found.values).all():
         return found
-    return replace(found, values=_at_ends(found.values, found.times, float(results.attrs["macro_step_s"])))
+    return replace(found, values=_at_ends(found.values, found.times, float(step)))
 
 
 def _at_ends(means: Array, times: Array, step: float) -> Array:
@@ -101,7 +101,12 @@ def _at_ends(means: Array, times: Array, step: float) -> Array:
 
 
 def recorded_series(results: xr.Dataset, target: Target, source: Path) -> Series:
-    """What the results have of a quantity; arguments and errors as in `series_of`."""
+    """What the results have of a quantity, a mean as it is; arguments and errors as in `series_of`."""
+    return _read_from(results, target, source)[0]
+
+
+def _read_from(results: xr.Dataset, target: Target, source: Path) -> tuple[Series, bool]:
+    """What the results have of a quantity, and whether it is the mean over the step that ends at its time."""
     found, index = place_of(results, target, source)
     values = np.asarray(found.values, dtype=np.float64).reshape(len(found), -1)[:, index]
     own = str(found.attrs.get("units", "1"))
@@ -111,7 +116,8 @@ def recorded_series(results: xr.Dataset, target: Target, source: Path) -> Series
     except ValueError as error:
         raise InputError(source, f"channels.{target}", str(error), f"{found.name} is in {own}") from error
     values = np.where(np.abs(values) <= MOST, values, np.inf)
-    return Series(results["time"].values, factor * values + offset, target.quantity in _FLOWS, unit)
+    series = Series(results["time"].values, factor * values + offset, target.quantity in _FLOWS, unit)
+    return series, found.attrs.get("cell_methods") == MEAN
 
 
 def place_of(results: xr.Dataset, target: Target, source: Path) -> tuple[xr.DataArray, int]:
