@@ -330,12 +330,16 @@ def _doubts(
     refitted = Refitted(model, judge, compared)
     again = clocks_once_recalibrated(refitted)
     told = {d.recording for d in (*found, *again) if d.is_serious or (d.kind == ODD and not _is_open(d))}
-    open_ones = {d.recording for d in found if _is_open(d)}
-    apart = [d for d in apart_once_refitted(refitted, told) if not _is_open(d) or d.recording not in open_ones]
+    left_open = {d.recording for d in found if _is_open(d)}
+    apart = [
+        d
+        for d in apart_once_refitted(refitted, told)
+        if d.is_serious or not _is_open(d) or d.recording not in left_open
+    ]
     again += apart
-    known = {(d.recording, d.subject, d.kind) for d in again}
+    known, answered = {(d.recording, d.subject, d.kind) for d in again}, {d.recording for d in apart}
     left = [d for d in found if (d.recording, d.subject, d.kind) not in known]
-    return (*again, *(d for d in left if not _is_open(d) or d.recording not in {a.recording for a in apart}))
+    return (*again, *(d for d in left if not _is_open(d) or d.recording not in answered))
 
 
 def _is_open(doubt: Doubt) -> bool:

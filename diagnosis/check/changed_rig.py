@@ -27,7 +27,7 @@ from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.input_runs import is_quick, parts_of, readings_of
-from diagnosis.check.odd_one_out import as_explained, comparable, left_beside, scaled_left
+from diagnosis.check.odd_one_out import as_explained, comparable, in_words, left_beside, scaled_left
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.judge.doubts import ODD
@@ -194,8 +194,7 @@ def _doubt(one: Compared, found: Sequence[_Fitted], before: float, theirs: float
     more = len(found) - MOST
     also = f" ({more} more of its numbers and derivatives do, too)" if more > 0 else ""
     text = (
-        f"scaled and shifted as suits each channel best, the scenario explains as little as {percent(1.0 - before)} of "
-        f"the variance of a channel of this recording, and at least {percent(1.0 - theirs)} in the other recordings; "
+        f"{in_words(before, theirs)}; "
         f"as if something of the rig was another for a while, with {told}{also} it is at least "
         f"{percent(1.0 - found[0].left)} here too"
     )

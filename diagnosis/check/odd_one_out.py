@@ -275,6 +275,14 @@ def left_beside(
     return most_left(comparable(one).values(), share), theirs
 
 
+def in_words(before: float, theirs: float) -> str:
+    """What is left of a recording that stands out and of the others, scaled and shifted, as shares that are explained."""
+    return (
+        f"scaled and shifted as suits each channel best, the scenario explains as little as {percent(1.0 - before)} of "
+        f"the variance of a channel of this recording, and at least {percent(1.0 - theirs)} in the other recordings"
+    )
+
+
 def as_explained(theirs: float) -> float:
     """What a recording may leave that is explained as well as others which leave so much."""
     return max(ALIKE * theirs, SAME)

@@ -20,7 +20,7 @@ from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.factors import best_logarithm
 from diagnosis.check.input_runs import is_quick, readings_of
-from diagnosis.check.odd_one_out import as_explained, comparable, is_within, left_beside, scaled_left
+from diagnosis.check.odd_one_out import as_explained, comparable, in_words, is_within, left_beside, scaled_left
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
@@ -130,8 +130,7 @@ def _doubt(one: Compared, found: Sequence[_Explained], before: float, theirs: fl
     )
     worst = max(f.left for f in found)
     text = (
-        f"scaled and shifted as suits each channel best, the scenario explains as little as {percent(1.0 - before)} of "
-        f"the variance of a channel of this recording, and at least {percent(1.0 - theirs)} in the other recordings; "
+        f"{in_words(before, theirs)}; "
         f"with {values} in this recording alone it is at least {percent(1.0 - worst)} here too"
     )
     remedy = (

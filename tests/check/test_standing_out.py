@@ -242,10 +242,13 @@ def test_where_nothing_is_known_beside_fitted_numbers_either_it_is_said_once(
         monkeypatch.setattr(check, ask, lambda one, others: None)
     monkeypatch.setattr(standing_out, "_of_rig", lambda refitted, number: None)
     paths = _driven(tmp_path, 1, lambda u: u, lambda x, v: -24.0 * x - 8.0 * v)
-    found = diagnosed(tmp_path / "scenario.yaml", [load_recording(r) for r in paths])
-    (doubt,) = [d for d in found.doubts if d.kind == "odd one out"]
-    assert (doubt.recording, doubt.subject) == ("run_2", ALL_CHANNELS)
-    assert doubt.statement.startswith("the scenario as it is")
+    for is_serious in (False, True):  # then it is not of the same experiment
+        monkeypatch.setattr(standing_out, "_is_another", lambda one, others, told=is_serious: told)
+        found = diagnosed(tmp_path / "scenario.yaml", [load_recording(r) for r in paths])
+        (doubt,) = [d for d in found.doubts if d.kind == "odd one out"]
+        assert (doubt.recording, doubt.subject, doubt.is_serious) == ("run_2", ALL_CHANNELS, is_serious)
+        assert doubt.statement.startswith("the scenario as it is") is not is_serious
+        assert (found.verdict is Verdict.RECORDING_FAULT) is is_serious
 
 
 @pytest.mark.parametrize("number", [1, 2], ids=["fitted", "held out"])
