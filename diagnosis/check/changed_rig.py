@@ -192,11 +192,11 @@ class _Tried:
 def _doubt(one: Compared, found: Sequence[_Fitted], before: float, theirs: float) -> Doubt:
     told = " or ".join(_told(f, one) for f in found[:MOST])
     more = len(found) - MOST
+    worst = max(f.left for f in found[:MOST])
     also = f" ({more} more of its numbers and derivatives do, too)" if more > 0 else ""
     text = (
         f"{in_words(before, theirs)}; "
-        f"as if something of the rig was another for a while, with {told}{also} it is at least "
-        f"{percent(1.0 - found[0].left)} here too"
+        f"as if something of the rig was another, with {told}{also} it is at least {percent(1.0 - worst)} here too"
     )
     remedy = (
         "was something of the rig or around it switched, moved or touched then? If it is known, state it under "

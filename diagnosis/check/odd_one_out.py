@@ -276,7 +276,7 @@ def left_beside(
 
 
 def in_words(before: float, theirs: float) -> str:
-    """What is left of a recording that stands out and of the others, scaled and shifted, as shares that are explained."""
+    """What is explained of a recording that stands out, and of the others, scaled and shifted."""
     return (
         f"scaled and shifted as suits each channel best, the scenario explains as little as {percent(1.0 - before)} of "
         f"the variance of a channel of this recording, and at least {percent(1.0 - theirs)} in the other recordings"

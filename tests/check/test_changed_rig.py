@@ -139,7 +139,7 @@ def test_the_check_tells_it_of_a_recording_that_stands_out(tmp_path: Path) -> No
     recordings = _recordings(tmp_path, _fan_for_a_while)
     every = check_recordings(load_scenario(tmp_path / "scenario.yaml"), [load_recording(r) for r in recordings])
     (told,) = [d for d in every if d.recording == "run_2" and d.kind == "odd one out"]
-    assert "as if something of the rig was another for a while" in told.statement
+    assert "as if something of the rig was another, with" in told.statement
     assert not told.is_serious
 
 
