@@ -11,7 +11,7 @@ from diagnosis.models.coil_network.kernel.layout import CoilNetworkLayout
 from diagnosis.models.coil_network.kernel.network import CoilNetwork
 from diagnosis.models.coil_network.kernel.parameters import CoilNetworkParameters
 from diagnosis.recording.quantity import parse_quantity
-from diagnosis.recording.series import series_of
+from diagnosis.recording.series import recorded_series
 
 #: Both make the same exact steps; the network's exp is right to 1e-15 and rounding adds up over some thousand steps.
 TOLERANCE = 1e-9
@@ -127,7 +127,7 @@ def test_loaded_networks_follow_the_co_simulation(tmp_path, supply, regressed):
     assert np.ptp(dataset["actuator.stiffness"].values) > 100.0
     assert_equal(result, dataset, {**NAMES, **DERIVED, "extension": "load.extension", "length": "load.length"})
     for quantity, channels in MADE.items():
-        wanted = np.stack([series_of(dataset, parse_quantity(c), tmp_path).values for c in channels], axis=1)
+        wanted = np.stack([recorded_series(dataset, parse_quantity(c), tmp_path).values for c in channels], axis=1)
         np.testing.assert_allclose(result[quantity], wanted, rtol=TOLERANCE, atol=TOLERANCE * wanted.max())
     terminal = dataset["circuit.terminal_voltage"].values.reshape(len(dataset.time), -1)
     np.testing.assert_allclose(
@@ -136,8 +136,8 @@ def test_loaded_networks_follow_the_co_simulation(tmp_path, supply, regressed):
     if supply == "common":
         assert terminal[20, 0] == pytest.approx(9.0 - 0.4 * dataset["circuit.supply_current"].values[20], rel=1e-9)
         np.testing.assert_array_equal(
-            series_of(dataset, parse_quantity("supply.voltage"), tmp_path).values, terminal[:, 0]
+            recorded_series(dataset, parse_quantity("supply.voltage"), tmp_path).values, terminal[:, 0]
         )
     else:
         with pytest.raises(InputError, match="a supply of its own"):
-            series_of(dataset, parse_quantity("supply.voltage"), tmp_path)
+            recorded_series(dataset, parse_quantity("supply.voltage"), tmp_path)

@@ -20,7 +20,7 @@ from diagnosis.recording.quantity import _KINDS, parse_quantity
 from diagnosis.recording.readings import read_results
 from diagnosis.recording.recording import load_recording
 from diagnosis.recording.sensor import SensorFile
-from diagnosis.recording.series import series_of
+from diagnosis.recording.series import recorded_series, series_of
 from diagnosis.recording.write import Notes, write_recording
 from diagnosis.search.problem import Point
 from tests.diagnosis.test_recording import folder
@@ -93,8 +93,8 @@ def test_network_and_results_of_a_run_agree_on_every_channel(tmp_path, broken):
 def test_the_names_of_one_quantity_say_the_same(tmp_path):
     _, results, _ = recorded(tmp_path)
 
-    def values(name):
-        return series_of(results, parse_quantity(name), tmp_path).values
+    def values(name):  # means over steps, as the co-simulation gives them: a product of two at the ends is another
+        return recorded_series(results, parse_quantity(name), tmp_path).values
 
     np.testing.assert_array_equal(values("coil[2,1].current"), values("string[2].current"))
     np.testing.assert_allclose(values("string[1].voltage"), sum(values(f"coil[1,{n}].voltage") for n in (1, 2, 3)))
