@@ -331,11 +331,7 @@ def _doubts(
     again = clocks_once_recalibrated(refitted)
     told = {d.recording for d in (*found, *again) if d.is_serious or (d.kind == ODD and not _is_open(d))}
     left_open = {d.recording for d in found if _is_open(d)}
-    apart = [
-        d
-        for d in apart_once_refitted(refitted, told)
-        if d.is_serious or not _is_open(d) or d.recording not in left_open
-    ]
+    apart = [d for d in apart_once_refitted(refitted, told) if not _is_open(d) or d.recording not in left_open]
     again += apart
     known, answered = {(d.recording, d.subject, d.kind) for d in again}, {d.recording for d in apart}
     left = [d for d in found if (d.recording, d.subject, d.kind) not in known]

@@ -15,21 +15,7 @@ from functools import partial
 from diagnosis.check.beside import Compared
 from diagnosis.check.changed_rig import changed_rig
 from diagnosis.check.late_input import late_input
-from diagnosis.check.odd_one_out import (
-    ALL_CHANNELS,
-    HALF,
-    MET,
-    SAME,
-    TIMES,
-    as_explained,
-    comparable,
-    is_within,
-    left,
-    left_beside,
-    met_until,
-    most_left,
-    scaled_left,
-)
+from diagnosis.check.odd_one_out import ALL_CHANNELS, MET, SAME, TIMES, as_explained, comparable, left, left_beside
 from diagnosis.check.other_course import other_course
 from diagnosis.check.other_number import other_number
 from diagnosis.check.sensor_of_one import explained_by_sensor
@@ -53,9 +39,6 @@ _SENSOR = (
 
 def apart_once_refitted(refitted: Refitted, known: Collection[str] = ()) -> list[Doubt]:
     """Doubts about recordings that stand out, one each; serious where one of its inputs alone explains it.
-
-    It is serious, too, where hardly anything of a channel is explained, the recording moves within what the others move
-    within, and neither a sensor nor an input or number is known to explain it: it is not of the same experiment.
 
     Of a recording of the training the others are those that its numbers are fitted to, and those held out; of one
     held out each other recording is predicted with numbers that were not fitted to it either.
@@ -138,11 +121,4 @@ def _apart(one: Compared, others: Sequence[Compared]) -> tuple[Doubt, bool] | No
             text += f"; as if this sensor {sensor.what}, it is {percent(1.0 - sensor.left)}"
             remedy, begin, end = _SENSOR, sensor.begin, sensor.end
     z = math.sqrt(mine / max(theirs, 1e-12))
-    is_serious = sensor is None and _is_another(one, others)
-    return Doubt(one.recording.title, subject, ODD, text, remedy, is_serious, begin, end, z), sensor is not None
-
-
-def _is_another(one: Compared, others: Sequence[Compared]) -> bool:
-    """Whether hardly anything of a channel follows the simulation, from the begin on, where no law acts in it alone."""
-    hardly = most_left(comparable(one).values(), scaled_left) >= HALF
-    return hardly and is_within(one, others) and met_until(one, others, is_as_it_is=True) is None
+    return Doubt(one.recording.title, subject, ODD, text, remedy, False, begin, end, z), sensor is not None

@@ -89,7 +89,7 @@ def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
         rest = [o for i, o in enumerate(every) if i != number]
         is_alike = is_as_it_is or is_within(one, rest)
         is_serious = is_alike and worst.scaled >= HALF
-        until = met_until(one, rest, is_as_it_is) if is_serious else None
+        until = _met_until(one, rest, is_as_it_is) if is_serious else None
         if until is not None:
             text += f"; until {instant(until, 3)} s it does not stand out"
             remedy = (
@@ -102,7 +102,7 @@ def odd_ones(every: Sequence[Compared]) -> list[Doubt]:
     return found
 
 
-def met_until(one: Compared, others: Sequence[Compared], is_as_it_is: bool) -> float | None:
+def _met_until(one: Compared, others: Sequence[Compared], is_as_it_is: bool) -> float | None:
     """Until when a recording that stands out does not [s]; None where it does from its begin.
 
     Args:

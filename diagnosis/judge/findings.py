@@ -89,13 +89,15 @@ def findings(
 
 
 def _lasting(model: DiagnosisModel, term: Term, finding: Finding) -> Finding:
-    """The finding of a fault that may have lasted for its whole recording, by the intervals of begin and end: not told
-    as one of a while."""
+    """The finding of a fault that may have lasted for its whole recording, or for all but a reading at either end.
+
+    By the intervals of begin and end; it is not told as one of a while.
+    """
     if term.recording is None:
         return finding
-    times = np.concatenate([s.channel.times for s in model.runs[term.recording].series])
+    times = np.unique(np.concatenate([s.channel.times for s in model.runs[term.recording].series]))
     ends = {e.name: e for e in finding.parameters}
-    if ends["begin"].lower > times.min() or ends["end"].upper < times.max():
+    if ends["begin"].lower > times[1] or ends["end"].upper < times[-2]:
         return finding
     return replace(finding, statement=finding.statement.replace(FOR_A_WHILE, "", 1))
 

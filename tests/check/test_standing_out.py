@@ -242,13 +242,10 @@ def test_where_nothing_is_known_beside_fitted_numbers_either_it_is_said_once(
         monkeypatch.setattr(check, ask, lambda one, others: None)
     monkeypatch.setattr(standing_out, "_of_rig", lambda refitted, number: None)
     paths = _driven(tmp_path, 1, lambda u: u, lambda x, v: -24.0 * x - 8.0 * v)
-    for is_serious in (False, True):  # then it is not of the same experiment
-        monkeypatch.setattr(standing_out, "_is_another", lambda one, others, told=is_serious: told)
-        found = diagnosed(tmp_path / "scenario.yaml", [load_recording(r) for r in paths])
-        (doubt,) = [d for d in found.doubts if d.kind == "odd one out"]
-        assert (doubt.recording, doubt.subject, doubt.is_serious) == ("run_2", ALL_CHANNELS, is_serious)
-        assert doubt.statement.startswith("the scenario as it is") is not is_serious
-        assert (found.verdict is Verdict.RECORDING_FAULT) is is_serious
+    found = diagnosed(tmp_path / "scenario.yaml", [load_recording(r) for r in paths])
+    (doubt,) = [d for d in found.doubts if d.kind == "odd one out"]
+    assert (doubt.recording, doubt.subject) == ("run_2", ALL_CHANNELS)
+    assert doubt.statement.startswith("the scenario as it is")
 
 
 @pytest.mark.parametrize("number", [1, 2], ids=["fitted", "held out"])
@@ -259,21 +256,14 @@ def test_an_input_of_the_opposite_sign_is_told(number: int, tmp_path: Path) -> N
     assert told.is_serious
 
 
-@pytest.mark.parametrize("number", [1, 2], ids=["fitted", "held out"])
-def test_a_recording_of_which_hardly_anything_is_explained_is_not_of_the_experiment(
-    number: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_where_hardly_anything_is_explained_a_law_may_be_what_the_others_took_up(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Its drive was played backwards; where no other course is asked for, it is a recording of something else."""
+    """A spring that hardens is taken for a stiffer one where numbers are fitted, and explains nothing elsewhere."""
     monkeypatch.setattr(standing_out, "_of_rig", lambda refitted, number: None)
-    (told,) = _told(tmp_path, _driven(tmp_path, number, lambda u: u[::-1].copy()))
-    assert (told.recording, told.subject, told.is_serious) == (f"run_{number + 1}", ALL_CHANNELS, True)
-
-
-def test_what_acts_beyond_what_the_others_reach_may_be_a_law(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(standing_out, "_of_rig", lambda refitted, number: None)
-    monkeypatch.setattr(standing_out, "is_within", lambda one, others: False)
     (told,) = _told(tmp_path, _driven(tmp_path, 1, lambda u: u[::-1].copy()))
-    assert not told.is_serious
+    assert (told.recording, told.subject, told.is_serious) == ("run_2", ALL_CHANNELS, False)
+    assert "and a law where the numbers of the others took it up" in told.remedy
 
 
 def test_twins_of_one_title_are_not_left_out_of_the_fit(tmp_path: Path) -> None:
