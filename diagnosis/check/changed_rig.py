@@ -20,14 +20,16 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from scipy.optimize import minimize
 
 from cosim.formula import to_base
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
-from diagnosis.check.input_runs import is_quick, parts_of, readings_of
+from diagnosis.check.input_runs import is_quick, left_by, parts_of, readings_of
 from diagnosis.check.odd_one_out import as_explained, comparable, in_words, left_beside, scaled_left
+from diagnosis.check.straight_line import freed, line_basis
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.judge.doubts import ODD
@@ -98,9 +100,11 @@ class _Tried:
     def __init__(self, runs: ChangedRuns, one: Compared, channels: dict[str, Beside]) -> None:
         self._runs, self._one, self._channels = runs, one, channels
         self._edges = np.linspace(one.begin, one.end, PIECES + 1)
-        #: Deviation of the readings of each channel, and what makes a sum of squares their mean, at every reading.
-        self._sizes = np.concatenate([np.full(len(b.times), np.std(b.measured)) for b in channels.values()])
-        self._weights = np.concatenate([np.full(len(b.times), len(b.times) ** -0.5) for b in channels.values()])
+        #: Of each channel what a straight line in its simulation explains, shape (readings, 2).
+        self._lines = [line_basis(b.simulated_there) for b in channels.values()]
+        #: What makes a sum of squares of the readings of a channel a share of their variance.
+        self._scales = [len(b.times) ** -0.5 / float(np.std(b.measured)) for b in channels.values()]
+        self._rest = self._freed(np.concatenate([b.measured for b in channels.values()]))
 
     def fitted(self) -> list[_Fitted]:
         """The changes that promise most, each where it explains the recording best."""
@@ -121,28 +125,23 @@ class _Tried:
         done = [(row - base) / first for row in rows if row is not None]
         if len(done) < PIECES:
             return None
-        summed = np.concatenate([np.zeros((1, len(base))), np.cumsum(done, axis=0)])
-        measured = np.concatenate([b.measured for b in self._channels.values()])
-        rest = self._freed(measured, base)
+        summed = np.cumsum([np.zeros(len(base)), *map(self._freed, done)], axis=0)
         best = None
         for a, b in itertools.combinations(range(PIECES + 1), 2):
-            row = self._freed(summed[b] - summed[a], base)
+            row = summed[b] - summed[a]
             size = float(row @ row)
             if size <= 0.0:
                 continue
-            amount = float(row @ rest) / size
-            lefts = [float(p @ p) for p in parts_of(self._channels, rest - amount * row)]
+            amount = float(row @ self._rest) / size
+            lefts = [float(p @ p) for p in parts_of(self._channels, self._rest - amount * row)]
             if best is None or max(lefts) < best[0]:
                 best = max(lefts), number, amount, float(self._edges[a]), float(self._edges[b])
         return best
 
-    def _freed(self, row: Array, base: Array) -> Array:
-        """Rows of all channels without their mean and share of the simulated course, in parts of the deviation."""
-        parts = []
-        for own, simulated in zip(parts_of(self._channels, row), parts_of(self._channels, base)):
-            basis = np.linalg.qr(np.stack([np.ones(len(own)), simulated], axis=1))[0]
-            parts.append(own - basis @ (basis.T @ own))
-        return np.asarray(np.concatenate(parts) / self._sizes * self._weights)
+    def _freed(self, row: Array) -> Array:
+        """A row of all channels without what straight lines explain, its squares as shares of their variances."""
+        parts = zip(parts_of(self._channels, row), self._lines, self._scales)
+        return np.concatenate([scale * freed(own, line) for own, line, scale in parts])
 
     def _fit(self, number: int, amount: float, begin: float, end: float) -> _Fitted:
         """The amount and the interval that leave the least; an interval up to an end of the recording stays there."""
@@ -174,19 +173,19 @@ class _Tried:
         """Largest share of a channel's variance that is left, scaled and shifted as suits best."""
         if self._runs.changes[number].is_share and amount <= LEAST_SHARE:
             return math.inf
-        row = self._readings(number, amount, begin, end)
-        if row is None:
-            return math.inf
-        parts = parts_of(self._channels, row)
-        return max(scaled_left(b, part) for b, part in zip(self._channels.values(), parts))
+        return left_by(self._results(number, amount, begin, end), self._channels, self._one)
 
     def _readings(self, number: int, amount: float, begin: float, end: float) -> Array | None:
         """Simulated readings of all channels one after another; None where the run fails."""
-        last = end if end < self._edges[-1] else 2.0 * self._edges[-1] - self._edges[0]  # beyond the last step
-        results = self._runs.results(number, amount, begin, last)
+        results = self._results(number, amount, begin, end)
         if results is None:
             return None
         return np.concatenate([readings_of(results, b, self._one) for b in self._channels.values()])
+
+    def _results(self, number: int, amount: float, begin: float, end: float) -> xr.Dataset | None:
+        """See `ChangedRuns.results`; what lasts until the last reading lasts beyond the last step."""
+        last = end if end < self._edges[-1] else 2.0 * self._edges[-1] - self._edges[0]
+        return self._runs.results(number, amount, begin, last)
 
 
 def _doubt(one: Compared, found: Sequence[_Fitted], before: float, theirs: float) -> Doubt:

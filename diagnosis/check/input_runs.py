@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -47,6 +48,13 @@ def readings_of(results: xr.Dataset, beside: Beside, one: Compared) -> Array:
     """Simulated readings of a channel, at its samples."""
     series = series_of(results, beside.channel.target, one.recording.path / "recording.yaml")
     return np.asarray(sample(series, beside.times))
+
+
+def left_by(results: xr.Dataset | None, channels: dict[str, Beside], one: Compared) -> float:
+    """Largest share of a channel's variance that a run leaves, scaled and shifted as suits best; infinite of none."""
+    if results is None:
+        return math.inf
+    return max(scaled_left(b, readings_of(results, b, one)) for b in channels.values())
 
 
 def parts_of(channels: dict[str, Beside], every: Array) -> list[Array]:

@@ -13,13 +13,11 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 
 import numpy as np
-import xarray as xr
 
 from cosim.unit.errors import InputError
-from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.factors import best_logarithm
-from diagnosis.check.input_runs import is_quick, readings_of
+from diagnosis.check.input_runs import is_quick, left_by
 from diagnosis.check.odd_one_out import as_explained, comparable, in_words, is_within, left_beside, scaled_left
 from diagnosis.check.timing import percent
 from diagnosis.judge.diagnosis import Doubt
@@ -109,18 +107,10 @@ def _best(
     component, name, unit, stated = number
 
     def cost(logarithm: float) -> float:
-        return _left(system.with_number(component, name, scale * math.exp(logarithm)), one, channels)
+        return left_by(system.with_number(component, name, scale * math.exp(logarithm)), channels, one)
 
     logarithm, left = best_logarithm(cost, tried)
     return _Explained(f"{component}.{name}", unit, stated, scale * math.exp(logarithm), left)
-
-
-def _left(results: xr.Dataset | None, one: Compared, channels: dict[str, Beside]) -> float:
-    """Largest share of a channel's variance that is left, scaled and shifted as suits best; infinite if none runs."""
-    if results is None:
-        return math.inf
-    simulated: list[Array] = [readings_of(results, b, one) for b in channels.values()]
-    return max(scaled_left(b, s) for b, s in zip(channels.values(), simulated))
 
 
 def _doubt(one: Compared, found: Sequence[_Explained], before: float, theirs: float) -> Doubt:

@@ -17,6 +17,7 @@ from cosim.unit.protocol import AnyArray, Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.factors import best_logarithm
 from diagnosis.check.odd_one_out import as_explained, comparable, left, left_beside, scaled_left
+from diagnosis.check.straight_line import freed, line_basis
 from diagnosis.check.timing import between, percent
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.equal_readings import ends_of_runs
@@ -105,8 +106,8 @@ def _drift(beside: Beside, enough: float, units: Units) -> Explained:
     """A zero that moves in proportion to time."""
     begin, end = float(beside.times[0]), float(beside.times[-1])
     share = (beside.times - begin) / (end - begin)
-    what = f"drifted in proportion to time, by {_size(beside, share, enough, units)} from begin to end"
-    return Explained(what, _left_with(beside, share), begin, end)
+    size, rest = _with(beside, share, enough, units)
+    return Explained(f"drifted in proportion to time, by {size} from begin to end", rest, begin, end)
 
 
 def _lag(beside: Beside) -> Explained:
@@ -123,15 +124,15 @@ def _lag(beside: Beside) -> Explained:
 
 def _offset(beside: Beside, enough: float, units: Units) -> Explained:
     """A zero that is off between two instants."""
-    basis, count = _basis(beside), len(beside.times)
-    rest = _freed(beside.measured, basis)
+    basis, count = line_basis(beside.simulated_there), len(beside.times)
+    rest = freed(beside.measured, basis)
     # sums of the rest and of the basis up to each reading: an offset from i to j is a difference of two of them
     ahead = np.concatenate([[0.0], np.cumsum(rest)])
-    freed = np.vstack([np.zeros(basis.shape[1]), np.cumsum(basis, axis=0)])
+    explained = np.vstack([np.zeros(basis.shape[1]), np.cumsum(basis, axis=0)])
 
     def gains(begins: AnyArray, ends: AnyArray) -> Array:
         size = ends - begins
-        there = np.sum((freed[ends] - freed[begins]) ** 2, axis=1)
+        there = np.sum((explained[ends] - explained[begins]) ** 2, axis=1)
         is_asked = (size >= SHORTEST * count) & (size <= LONGEST * count)
         return np.where(is_asked, (ahead[ends] - ahead[begins]) ** 2 / np.maximum(size - there, 1e-9), 0.0)
 
@@ -143,8 +144,8 @@ def _offset(beside: Beside, enough: float, units: Units) -> Explained:
     there = np.arange(count)
     box = ((there >= begin) & (there < end)).astype(np.float64)
     first, last = float(beside.times[begin]), float(beside.times[end - 1])
-    what = f"was off by {_size(beside, box, enough, units)} from about {between(first, last)} s"
-    return Explained(what, _left_with(beside, box), first, last)
+    size, share = _with(beside, box, enough, units)
+    return Explained(f"was off by {size} from about {between(first, last)} s", share, first, last)
 
 
 def _stuck(beside: Beside) -> Iterator[Explained]:
@@ -179,32 +180,15 @@ def _best(gains: Callable[[AnyArray, AnyArray], Array], pairs: Iterator[tuple[in
     return int(best[0]), int(best[1])
 
 
-def _size(beside: Beside, column: Array, enough: float, units: Units) -> str:
-    """By how much of a column a channel is off, with its unit and the sizes that leave no more than enough."""
-    basis = _basis(beside)
-    rest, free = _freed(beside.measured, basis), _freed(column, basis)
-    size, part = _strength(rest, free), max(float(np.mean(free**2)), 1e-300)
-    half = math.sqrt(max(enough - _left_with(beside, column), 0.0) * float(np.var(beside.measured)) / part)
-    return units.scale(size, beside.channel.unit).interval(size, size - half, size + half)
+def _with(beside: Beside, column: Array, enough: float, units: Units) -> tuple[str, float]:
+    """By how much of a column a channel is off, and the share of its variance that is left then.
 
-
-def _strength(rest: Array, column: Array) -> float:
-    """How much of a column a row contains, by least squares."""
-    return float(rest @ column) / max(float(column @ column), 1e-300)
-
-
-def _left_with(beside: Beside, column: Array) -> float:
-    """Share of a channel's variance that the simulated course, scaled and shifted, and a column leave."""
-    basis = _basis(beside)
-    rest, free = _freed(beside.measured, basis), _freed(column, basis)
-    return left(beside, beside.measured - (rest - free * _strength(rest, free)))
-
-
-def _basis(beside: Beside) -> Array:
-    """Orthonormal columns of what scale and shift of the simulated course make, shape (readings, 2)."""
-    return np.linalg.qr(np.stack([np.ones(len(beside.times)), beside.simulated_there], axis=1))[0]
-
-
-def _freed(row: Array, basis: Array) -> Array:
-    """A row without what a basis explains of it."""
-    return np.asarray(row - basis @ (basis.T @ row))
+    The size has its unit and the sizes that leave no more than enough; the simulated course is scaled and shifted.
+    """
+    basis = line_basis(beside.simulated_there)
+    rest, free = freed(beside.measured, basis), freed(column, basis)
+    size = float(rest @ free) / max(float(free @ free), 1e-300)
+    share = left(beside, beside.measured - (rest - free * size))
+    part = max(float(np.mean(free**2)), 1e-300)
+    half = math.sqrt(max(enough - share, 0.0) * float(np.var(beside.measured)) / part)
+    return units.scale(size, beside.channel.unit).interval(size, size - half, size + half), share

@@ -102,7 +102,7 @@ def test_a_sensor_that_stands_still_twice_is_told_with_both_stretches(tmp_path: 
 
 
 def test_readings_that_repeat_where_the_rig_rests_explain_nothing(tmp_path: Path) -> None:
-    """A few equal readings beside a sensor that is off: what is off is told, and no sensor that stands still."""
+    """A few equal readings beside a sensor that is off: the offset is reported, and no sensor that stands still."""
     recordings = _recordings(tmp_path, _plain, sensor=_off)
     table = pd.read_csv(recordings[1] / "data.csv")
     table.loc[:12, "stack.bottom"] = table["stack.bottom"].iloc[0]

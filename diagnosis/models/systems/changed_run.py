@@ -9,17 +9,15 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from cosim.components import FmuComponent
 from cosim.formula import to_base
 from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
+from cosim.unit.protocol import Array
 from diagnosis.models.systems.changeable import why_none
 from diagnosis.models.systems.fast import FastSystem
-from diagnosis.models.systems.fmu_layout import FastFmu, NotFast
-from diagnosis.models.systems.numbers import scalar_parameters
+from diagnosis.models.systems.fmu_layout import NotFast
 from diagnosis.models.systems.placed import Placed
-from diagnosis.models.systems.run import check_outputs, dataset
-from diagnosis.models.systems.steps import resolve
+from diagnosis.models.systems.run import dataset, numbers_of, resolved
 
 #: 1 from begin to end of the interval, else 0.
 _BOX = "(step(time - begin) - step(time - end))"
@@ -71,19 +69,13 @@ class ChangedRuns:
     """
 
     def __init__(self, scenario: Scenario) -> None:
-        with closing(FastSystem(scenario)) as plain:
-            check_outputs(plain)
-            resolve(plain)
+        plain, values = resolved(scenario)
+        with closing(plain):
             #: Everything that may be another.
-            self.changes = [c for name in plain.fmus for c in _changes(plain, name)]
+            self.changes = [c for name in plain.fmus for c in _changes(plain, name, values)]
         if not self.changes:
             raise NotFast("nothing of its FMUs can be another for a while")
-        self._system = FastSystem(scenario, [_placed(c) for c in self.changes])
-        try:
-            resolve(self._system)
-        except BaseException:
-            self.close()
-            raise
+        self._system, _ = resolved(scenario, [_placed(c) for c in self.changes])
 
     def close(self) -> None:
         """Free the FMUs."""
@@ -110,24 +102,24 @@ def _placed(changed: Changed) -> Placed:
     return Placed(changed.component, changed.to, f"amount*{_BOX}", numbers, is_share=changed.is_share)
 
 
-def _changes(system: FastSystem, name: str) -> Iterator[Changed]:
-    """What of one FMU may be another: parameters that are not 0, and derivatives of states that move."""
-    fmu = system.fmus[name]
-    component = system.scenario.components[name]
-    if not fmu.is_model_exchange or not isinstance(component, FmuComponent) or component.integrator != "cvode":
+def _changes(system: FastSystem, component: str, values: Array | None) -> Iterator[Changed]:
+    """What of one FMU may be another: parameters that are not 0, and derivatives of states that move.
+
+    Args:
+        system: Of one recording.
+        component: Name of the FMU.
+        values: Recorded of a simulation; None where it stops.
+    """
+    fmu = system.fmus[component]
+    if not fmu.is_model_exchange:
         return
     if not why_none(fmu):
-        for parameter, value in scalar_parameters(fmu, system, name):
+        for name, unit, value in numbers_of(system, component):
             if value != 0.0:
-                yield Changed(name, parameter, _unit(fmu, parameter), value, FIRST_SHARE)
-    rows = system.simulate()
+                yield Changed(component, name, unit, value, FIRST_SHARE)
     span = system.times[-1] - system.times[0]
     for state in fmu.states:
-        moved = 0.0 if rows is None else float(np.ptp(rows.values[:, system.recorded[name, f"state {state}"]]))
+        moved = 0.0 if values is None else float(np.ptp(values[:, system.recorded[component, f"state {state}"]]))
         if moved > 0.0 and state in fmu.units:
             unit = fmu.units[state]
-            yield Changed(name, state, unit, None, FIRST_RISE * moved * to_base(unit)[0] / span)
-
-
-def _unit(fmu: FastFmu, name: str) -> str:
-    return fmu.unit.table.all[name].variable.unit
+            yield Changed(component, state, unit, None, FIRST_RISE * moved * to_base(unit)[0] / span)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing
 
 import xarray as xr
@@ -17,6 +17,7 @@ from diagnosis.models.coil_network.kernel.compiler import CompilerError
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import NotFast
 from diagnosis.models.systems.numbers import scalar_parameters
+from diagnosis.models.systems.placed import Placed
 from diagnosis.models.systems.steps import resolve
 from diagnosis.search.cosim_run import Changes
 
@@ -45,9 +46,8 @@ def run_quickly(scenario: Scenario) -> xr.Dataset:
 
 
 def _run(scenario: Scenario) -> xr.Dataset | None:
-    with closing(FastSystem(scenario)) as system:
-        check_outputs(system)
-        values = resolve(system)
+    system, values = resolved(scenario)
+    with closing(system):
         return None if values is None else dataset(system, values)
 
 
@@ -64,13 +64,7 @@ class SystemRuns:
     """
 
     def __init__(self, scenario: Scenario) -> None:
-        self._system = FastSystem(scenario)
-        try:
-            check_outputs(self._system)
-            resolve(self._system)
-        except BaseException:
-            self.close()
-            raise
+        self._system, _ = resolved(scenario)
 
     def close(self) -> None:
         """Free the FMUs."""
@@ -78,9 +72,9 @@ class SystemRuns:
 
     def numbers(self) -> Iterator[tuple[str, str, str, float]]:
         """Component, name, unit and value of every scalar parameter of an FMU."""
-        for component, fmu in self._system.fmus.items():
-            for name, value in scalar_parameters(fmu, self._system, component):
-                yield component, name, fmu.unit.table.all[name].variable.unit, value
+        for component in self._system.fmus:
+            for name, unit, value in numbers_of(self._system, component):
+                yield component, name, unit, value
 
     def with_number(self, component: str, name: str, value: float) -> xr.Dataset | None:
         """Results with another value of a parameter, in its own unit; None where a unit fails or runs away."""
@@ -102,7 +96,29 @@ class SystemRuns:
             self._system.give(stated)
 
 
-def check_outputs(system: FastSystem) -> None:
+def resolved(scenario: Scenario, laws: Sequence[Placed] = ()) -> tuple[FastSystem, Array | None]:
+    """A system with as many steps of the integration as it needs, and its recorded values; see `resolve`.
+
+    Raises:
+        InputError, NotFast, CompilerError: As of `SystemRuns`.
+    """
+    system = FastSystem(scenario, laws)
+    try:
+        _check_outputs(system)
+        return system, resolve(system)
+    except BaseException:
+        system.close()
+        raise
+
+
+def numbers_of(system: FastSystem, component: str) -> Iterator[tuple[str, str, float]]:
+    """Name, unit and value of every scalar parameter of one FMU."""
+    fmu = system.fmus[component]
+    for name, value in scalar_parameters(fmu, system, component):
+        yield name, fmu.unit.table.all[name].variable.unit, value
+
+
+def _check_outputs(system: FastSystem) -> None:
     """Raises `NotFast` where an FMU has outputs that compiled code does not record."""
     for name, unit in system.assembly.system.units.items():
         fmu = system.fmus.get(name)
