@@ -43,6 +43,7 @@ from evaluation.strangers import (
     twenty_fifth_set,
     twenty_first_set,
     twenty_fourth_set,
+    twenty_ninth_set,
     twenty_second_set,
     twenty_seventh_set,
     twenty_sixth_set,
@@ -80,6 +81,7 @@ SETS = {
     "twenty_sixth": twenty_sixth_set.CASES,
     "twenty_seventh": twenty_seventh_set.CASES,
     "twenty_eighth": twenty_eighth_set.CASES,
+    "twenty_ninth": twenty_ninth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
