@@ -510,8 +510,8 @@ def canal_null(folder: Path, rng: Rng) -> Truth:
     )
     _canal(folder, rng, noise_stated=1.0 / 3.0, loggers=loggers)
     return Truth(
-        "nothing; numbers off as stated, noise stated 3 times too small, a column of an input, decimal commas, a gap of "
-        "10 min, loggers of min, h and s, Co-Simulation",
+        "nothing; numbers off as stated, noise stated 3 times too small, a column of an input, decimal commas, a gap "
+        "of 10 min, loggers of min, h and s, Co-Simulation",
         FINE,
     )
 
@@ -827,8 +827,8 @@ def belt_two(folder: Path, rng: Rng) -> Truth:
     drag, share, falls = rng.uniform(35.0, 55.0), rng.uniform(0.12, 0.2), rng.uniform(30.0, 50.0)
     _belt(folder, rng, drag=drag, clings=(share, falls), loggers=(Logger("ms"), Logger("s", zero=4.0)))
     return Truth(
-        f"skirts brake the belt with {drag:.2f} N (v/(1 m/s))^2 more; and {share:.3f} of what is fed clings to the belt "
-        f"and falls off with a time constant of {falls:.1f} s only",
+        f"skirts brake the belt with {drag:.2f} N (v/(1 m/s))^2 more; and {share:.3f} of what is fed clings to the "
+        f"belt and falls off with a time constant of {falls:.1f} s only",
         PHYSICS,
         (*DRAGGED, *CLINGING),
     )
