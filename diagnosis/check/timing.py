@@ -291,12 +291,17 @@ def _factors(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) ->
         return []
     sizes = np.geomspace(least, FASTEST, FACTORS)
     price = 2.0 * np.log(2.0 * FACTORS)
-    tried = []
-    for size in (*-sizes[::-1], *sizes):
+
+    def run_at(size: float) -> tuple[float, float, list[Fit]]:
         fits = [explained(b, b, b.times / (1.0 + size)) for b in leads]
-        found = together(leads, own, np.array([gain(a, f) for a, f in zip(own, fits)])) - price
-        tried.append((found, float(size), fits))
-    gained, size, fits = max(tried, key=lambda one: one[0])
+        return together(leads, own, np.array([gain(a, f) for a, f in zip(own, fits)])) - price, size, fits
+
+    tried = [run_at(float(size)) for size in (*-sizes[::-1], *sizes)]
+    best = max(tried, key=lambda one: one[0])
+    if best[0] > critical(4.0):  # it will be told: more exactly than on the grid, whose least is no bound of it
+        tried += map(run_at, (best[1] * (sizes[1] / sizes[0]) ** np.linspace(-1.0, 1.0, FINER)).tolist())
+        best = max(tried, key=lambda one: one[0])
+    gained, size, fits = best
     low, high = (100.0 * v for v in _interval([(g, s) for g, s, _ in tried], size))
     text = (
         f"the readings' clock runs {100.0 * abs(size):.2g} % too {'fast' if size > 0 else 'slow'} ({low:.2g} to "
