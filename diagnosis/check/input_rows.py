@@ -12,10 +12,10 @@ from cosim.scenario import Scenario
 from diagnosis.judge.diagnosis import Adequacy
 from diagnosis.models.systems.run import is_system, run_quickly
 from diagnosis.recording.conditions import scenario_of
-from diagnosis.recording.recording import Channel, Input, Recording
+from diagnosis.recording.recording import Channel, Recording
 from diagnosis.search.cosim_run import predicted
 from diagnosis.search.problem import Parameter
-from diagnosis.search.switch_times import is_held
+from diagnosis.search.switch_times import earlier, is_held
 
 #: Simulations with every change somewhere within the row before it, and the seed of their instants.
 DRAWS, SEED = 4, 33
@@ -70,7 +70,10 @@ def moved_by_rows(scenario: Scenario, recording: Recording, channel: Channel) ->
         usual = predicted(run_quickly(conditions), channel.target, channel.times, source)
         squares = []
         for _ in range(DRAWS):
-            inputs = tuple(_moved(i, rng) if c else i for i, c in zip(recording.inputs, changes))
+            inputs = tuple(
+                earlier(i, rng.uniform(0.0, 1.0, len(i.times) - 1)) if c else i
+                for i, c in zip(recording.inputs, changes)
+            )
             results = run_quickly(scenario_of(scenario, replace(recording, inputs=inputs)))
             squares.append(np.mean((predicted(results, channel.target, channel.times, source) - usual) ** 2))
     except RunStopped:
@@ -78,10 +81,3 @@ def moved_by_rows(scenario: Scenario, recording: Recording, channel: Channel) ->
     # what the fitted model answers is as large as the readings, whatever the scenario as it is answers
     size = float(np.std(usual))
     return float(np.sqrt(np.mean(squares))) * (float(np.std(channel.values)) / size if size > 0.0 else 0.0)
-
-
-def _moved(recorded: Input, rng: np.random.Generator) -> Input:
-    """The input with each change earlier by a part of the row before it."""
-    times = recorded.times.copy()
-    times[1:] -= rng.uniform(0.0, 1.0, len(times) - 1) * np.diff(recorded.times) * (np.diff(recorded.values) != 0.0)
-    return replace(recorded, times=times)

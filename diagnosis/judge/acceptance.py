@@ -11,6 +11,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.optimize import lsq_linear
 
 from cosim.compute.steps import TimeIsOver, may_be_left
 from diagnosis.judge.agreement import Agreement, agreement, times_white
@@ -49,6 +50,8 @@ _SCATTERED = (
 )
 #: Share of what a law moves (sum of squares) from which on an error of the macro-step may be taken for it: half as far.
 SOLVED = 0.25
+#: Most by which a change came earlier than its row, in halves of a row.
+ROWS = 2.0
 #: Why nothing is accepted that comes with a worse model.
 _DISTORTED = (
     "together with the parameters that were fitted with it, the readings that judge are predicted worse than by the "
@@ -86,6 +89,8 @@ class Accepted:
             from it, by training, 0 where unfitted readings do not tell them apart; else, where several terms are
             suggested, named laws at any place that leave less than `UNSEPARATED` more, by both.
         coarse: Terms that are not accepted because the macro-step is too long to tell, and for nothing else.
+        rows: Terms that are not accepted because changes of recorded inputs that came before their rows explain as
+            much, and for nothing else.
     """
 
     headline: Explanation
@@ -109,6 +114,7 @@ class Accepted:
     opposed: Mapping[Term, Term] = field(default_factory=dict)
     confused: Mapping[Term, tuple[tuple[Term, float], ...]] = field(default_factory=dict)
     coarse: frozenset[Term] = frozenset()
+    rows: frozenset[Term] = frozenset()
 
 
 class _Judge:
@@ -122,6 +128,8 @@ class _Judge:
         self._kept: list[Point] = []
         #: Terms that move readings no farther than an error of the macro-step may.
         self.coarse: set[Term] = set()
+        #: Terms that gain no more than changes of inputs do that came before their rows.
+        self.rows: set[Term] = set()
 
     def predict(self, point: Point, is_local: bool = False) -> Predicted:
         key = (id(point), is_local)
@@ -242,6 +250,7 @@ def accept(
         {t: others[t] for t in current.terms},
         confused=_not_told_apart(model, judge, headline, current, others, can_compare, on_progress),
         coarse=frozenset(judge.coarse & reasons.keys()),
+        rows=frozenset(judge.rows & reasons.keys()),
     )
 
 
@@ -402,7 +411,12 @@ def _judged(
         reasons.append(hidden)
     if is_local and (why := _of_noise(judge.model, *noise, current, without)):
         reasons.append(why)  # readings beside those that were fitted have their noise
-    return found, tuple(reasons or _scattered(judge, term, without) or _of_solving(judge, term, current, without))
+    return found, tuple(
+        reasons
+        or _scattered(judge, term, without)
+        or _of_solving(judge, term, current, without)
+        or ([] if is_local else _of_rows(judge, term, current, without, noise[0]))
+    )
 
 
 def _scattered(judge: _Judge, term: Term, without: Fit) -> list[str]:
@@ -460,3 +474,36 @@ def _of_noise(model: Model, margin: float, alike: Mapping[str, float], current: 
 def _worse(channels: Sequence[str]) -> str:
     more = f" and {len(channels) - 3} more" if len(channels) > 3 else ""
     return f"with it these are predicted worse: {', '.join(channels[:3])}{more}"
+
+
+def _of_rows(judge: _Judge, term: Term, current: Explanation, without: Fit, margin: float) -> list[str]:
+    """Why a law is not accepted that gains as rows of recorded inputs do which stand late: none, or one reason.
+
+    What changed between two rows stands in the later one. Where changes of the inputs that came earlier, by up to a row
+    of each recording, gain as much of the training readings as the law or more, up to what chance gives, the law is one
+    of two reasons. Around the fit without the law residuals are straight lines in both (a step of Gauss and Newton).
+    """
+    inner, plain = judge.model.innermost, judge.model.innermost_point(without.point)
+    shifts = inner.row_shifts(plain)
+    if not len(shifts):
+        return []
+    before, after = inner.residuals([plain, judge.model.innermost_point(current.fit.point)])
+    slopes = inner.base_jacobian(plain)
+    ends = np.array([p.bounds for p in inner.parameters])
+    prior = np.hstack([np.zeros((len(ends), len(shifts))), np.eye(len(ends))])
+    moves = np.hstack([shifts.T, slopes])
+    lower, upper = (
+        np.r_[np.zeros(len(shifts)), -ends - plain.base],
+        np.r_[np.full(len(shifts), ROWS), ends - plain.base],
+    )
+    aim = -np.concatenate([before, plain.base])
+    found = lsq_linear(np.vstack([moves, prior]), aim, (lower - 1e-9, upper + 1e-9))
+    left = before + moves @ found.x
+    law, rows = (float(np.sum(loss(before)) - np.sum(loss(r))) for r in (after, left))
+    if law - rows > margin:
+        return []
+    judge.rows.add(term)
+    return [
+        "changes of recorded inputs stand in the row after them: where they came up to a row earlier the training "
+        f"readings are met as well (-2 log likelihood falls by {likelihood(rows)}, with the law by {likelihood(law)})"
+    ]

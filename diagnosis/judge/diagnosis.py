@@ -144,6 +144,8 @@ class Finding:
         judged_by: Which readings these are, in plain words; of a fault of one recording other readings of that one.
         is_of_either: Whether its class holds laws of the rig beside laws of sensors or inputs: it accuses neither.
         is_coarse: Whether it is a suggestion because the macro-step is too long to tell, and for nothing else.
+        is_within_rows: Whether it is a suggestion because changes of recorded inputs before their rows explain as much,
+            and for nothing else.
     """
 
     unit: str
@@ -170,6 +172,7 @@ class Finding:
     judged_by: str = ""
     is_of_either: bool = False
     is_coarse: bool = False
+    is_within_rows: bool = False
 
     @property
     def places(self) -> str:

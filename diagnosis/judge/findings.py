@@ -277,6 +277,7 @@ def _finding(
         judged_by=accepted.judged_by.get(term, accepted.basis),
         is_of_either=_is_of_either(model, term, likely),
         is_coarse=not is_accepted and term in accepted.coarse,
+        is_within_rows=not is_accepted and term in accepted.rows,
     )
 
 

@@ -26,6 +26,11 @@ NAMED = 6
 _UNCONFIRMED = "what the training recordings suggest is not confirmed by readings that it was not fitted to"
 _COARSE = "time.macro_step is too long to tell what the training recordings suggest from an error of solving"
 
+_ROWS = (
+    "changes of recorded inputs, which stand in the row after them, explain what the training recordings suggest as "
+    "well as any law does"
+)
+
 
 def verdict(
     outcome: Outcome,
@@ -119,8 +124,8 @@ def why_open(
         reasons.append(
             "no law of physics was tried: " + "; ".join(searched.untried or ("the model offers no place for one",))
         )
-    if suggested := [f for f in found if not f.is_accepted]:
-        reasons.append(_COARSE if all(f.is_coarse for f in suggested) else _UNCONFIRMED)
+    if suggested := [f for f in found if not f.is_accepted and (adequacy.is_open or not f.is_within_rows)]:
+        reasons.append(_unaccepted(suggested))
     reasons += _rejections(adequacy, _unexplained(outcome, found, searched, adequacy))
     is_open, left = adequacy.is_open, outcome.base_structure
     noise = math.sqrt(times_white(adequacy.alike, (left.channels,))) * times_louder(adequacy.louder, (left.channels,))
@@ -133,6 +138,13 @@ def why_open(
         reasons.append(_strained([parameter_words(names[int(i)]) for i in strained] if names else [], len(strained)))
     # Where something is open, one recording that stands out from all others is the first thing to look at.
     return (*(_apart(d) for d in doubts if d.kind == ODD and reasons), *reasons)
+
+
+def _unaccepted(suggested: Sequence[Finding]) -> str:
+    """Why nothing of what is suggested is accepted."""
+    if all(f.is_coarse for f in suggested):
+        return _COARSE
+    return _ROWS if all(f.is_within_rows for f in suggested) else _UNCONFIRMED
 
 
 def _apart(doubt: Doubt) -> str:

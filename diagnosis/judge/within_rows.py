@@ -9,18 +9,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from cosim.scenario import Scenario
 from diagnosis.judge.diagnosis import Finding, Standing
 from diagnosis.judge.findings import statement
 from diagnosis.recording.recording import Recording
-from diagnosis.search.switch_times import is_held
+from diagnosis.search.switch_times import row_length
 
 #: Identifier of the law of a clock; its offset is negative where readings come early.
 CLOCK = "sensor_clock_offset"
-#: Fewest rows of a table that was sampled, and the share of a row by which sampled ones differ.
-FEWEST, EVEN = 10, 0.1
 
 
 @dataclass(frozen=True)
@@ -41,9 +37,6 @@ class Row:
 def longest_row(scenario: Scenario, recordings: Sequence[Recording]) -> Row | None:
     """The input with the longest rows of those that hold their values and change; None where there is none.
 
-    A programme whose rows are its switches is known to the instant: where fewer than half of the rows are evenly apart,
-    they are no samples.
-
     Args:
         scenario: As the recordings are compared with.
         recordings: Their inputs are looked at.
@@ -51,12 +44,8 @@ def longest_row(scenario: Scenario, recordings: Sequence[Recording]) -> Row | No
     found = []
     for recording in recordings:
         for one in recording.inputs:
-            steps = np.diff(one.times)
-            if len(steps) < FEWEST or not is_held(scenario, one) or not np.any(np.diff(one.values)):
-                continue
-            middle = float(np.median(steps))
-            if np.mean(np.abs(steps - middle) <= EVEN * middle) >= 0.5:
-                found.append(Row(f"{one.component}.{one.output}", recording.title, middle))
+            if length := row_length(scenario, one):
+                found.append(Row(f"{one.component}.{one.output}", recording.title, length))
     return max(found, key=lambda r: r.length, default=None)
 
 

@@ -308,6 +308,14 @@ class DiagnosisModel(Protocol):
         """
         ...
 
+    def row_shifts(self, point: Point) -> Array:
+        """How residuals move where changes of a recorded input came half a row of its table earlier than they stand.
+
+        One for each input of each recording that was sampled; shape (inputs, residuals), in deviations of the noise; no
+        rows where there is no such input, or where that is not known.
+        """
+        ...
+
     @property
     def has_ridges(self) -> bool:
         """See `diagnosis.search.problem.has_ridges`."""
@@ -514,6 +522,10 @@ class ModelBase:
     def solving_error(self, point: Point) -> Array | None:
         """None: not known."""
         return None
+
+    def row_shifts(self, point: Point) -> Array:
+        """No rows: not known."""
+        return np.zeros((0, len(self.layout.time)))
 
     @property
     def has_scatter(self) -> bool:

@@ -41,6 +41,11 @@ _SHORTER = (
     "Halve time.macro_step until simulations change by less than the noise, and diagnose again: what is suggested "
     "moves readings no farther than that error may."
 )
+#: What would decide where a law gains as much as changes of inputs that came before their rows.
+_MORE_ROWS = (
+    "Record the inputs with shorter rows, or a row at each of their changes, and diagnose again: what is suggested "
+    "explains no more than changes that came up to a row earlier than they stand in the table."
+)
 #: What would decide about a fault with begin and end, which no other recording can show.
 _OF_ONE_RECORDING = (
     "Repeat the recording of the fault with a second sensor beside the one that is suspected: a fault of a sensor does "
@@ -118,6 +123,8 @@ def what_decides(diagnosis: Diagnosis) -> str:
     if diagnosis.suggestions:
         if all(f.is_coarse for f in diagnosis.suggestions):
             return _SHORTER
+        if all(f.is_within_rows for f in diagnosis.suggestions):
+            return _MORE_ROWS
         if all(is_of_an_interval(f) for f in diagnosis.suggestions):
             return _OF_ONE_RECORDING
         if all(waits(f) for f in diagnosis.suggestions):

@@ -147,6 +147,10 @@ class CosimModel:
         """None: asked of compiled code alone."""
         return None
 
+    def row_shifts(self, point: Point) -> Array:
+        """No rows: asked of compiled code alone."""
+        return np.zeros((0, len(self.layout.time)))
+
     def changes_at(self, point: Point, number: int | None) -> Changes:
         """What a point changes in the scenario of one recording; None: in the scenario itself, on no day of its own."""
         numbers = self._own if number is None else self._numbers_of[number]

@@ -9,13 +9,14 @@ the rig explains, or that a dead time, a lag or a gain of the input seems to exp
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.special import chdtri
 
 from cosim.components import ProgrammeComponent, ProgrammeOutput
 from cosim.scenario import Scenario
+from cosim.unit.protocol import Array
 from cosim.unit.quantity import conversion
 from diagnosis.faults.programme import InputChange
 from diagnosis.recording.recording import Input, Recording
@@ -38,6 +39,8 @@ CHANCE = 1e-3
 MOST_OF_IT = 0.5
 #: Share of an input's range from which a change is one.
 LEAST = 0.02
+#: Fewest rows of a table that was sampled, and the share of a row by which sampled ones differ.
+FEWEST, EVEN = 10, 0.1
 
 
 #: Laws that are present, with the values of their numbers.
@@ -124,6 +127,31 @@ def _with_late(plain: Model, late: Sequence[Term], best: Fit) -> Fit:
 def is_held(scenario: Scenario, recorded: Input) -> bool:
     """Whether an input holds each of its values until the next row, and no straight lines join them."""
     return len(recorded.times) > 1 and _output(scenario, recorded).interpolation != "linear"
+
+
+def row_length(scenario: Scenario, recorded: Input) -> float:
+    """Median time from one row to the next [s] of an input that was sampled, holds its values and changes; else 0.
+
+    A programme whose rows are its switches is known to the instant: where fewer than half of the rows are evenly apart,
+    they are no samples.
+    """
+    steps = np.diff(recorded.times)
+    if len(steps) < FEWEST or not is_held(scenario, recorded) or not np.any(np.diff(recorded.values)):
+        return 0.0
+    middle = float(np.median(steps))
+    return middle if np.mean(np.abs(steps - middle) <= EVEN * middle) >= 0.5 else 0.0
+
+
+def earlier(recorded: Input, shares: Array | float) -> Input:
+    """The input with each change earlier by a share of the row before it.
+
+    Args:
+        recorded: The input as its rows say.
+        shares: One for all rows, or of each row but the first, shape (rows - 1,).
+    """
+    times = recorded.times.copy()
+    times[1:] -= shares * np.diff(recorded.times) * (np.diff(recorded.values) != 0.0)
+    return replace(recorded, times=times)
 
 
 def _output(scenario: Scenario, recorded: Input) -> ProgrammeOutput:

@@ -173,6 +173,10 @@ class ClosedLoopModel(ModelBase):
         """See `diagnosis.models.protocol.DiagnosisModel`."""
         return self.model.solving_error(point)
 
+    def row_shifts(self, point: Point) -> Array:
+        """See `diagnosis.models.protocol.DiagnosisModel`."""
+        return self.model.row_shifts(point)
+
     @property
     def has_ridges(self) -> bool:
         """See `diagnosis.search.problem.has_ridges`."""

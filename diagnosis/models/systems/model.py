@@ -35,6 +35,7 @@ from diagnosis.recording.series import Series, place_of
 from diagnosis.search.cosim_model import CompiledModel, Free
 from diagnosis.search.cosim_run import Changes, predicted
 from diagnosis.search.problem import Point, Term
+from diagnosis.search.switch_times import HALF, earlier, row_length
 from diagnosis.search.unit_law import UnitLaw
 
 #: Steps of the integration in a macro-step: doubled until no reading moves by more than this share of its noise.
@@ -213,6 +214,44 @@ class SystemModel(CompiledModel):
         with np.errstate(invalid="ignore", over="ignore"):  # runs that stop, or run away, have none
             found = 2.0 * (finer.residuals([point])[0] - self.residuals([point])[0])
         return found if np.isfinite(found).all() else None
+
+    def row_shifts(self, point: Point) -> Array:
+        """See `diagnosis.models.protocol.DiagnosisModel`."""
+        found, size = [], len(self.layout.time)
+        count = self._steps_of(point)
+        for moved in self._with_earlier_inputs:
+            end = 0
+            for number in range(len(self.recordings)):
+                before, after = (m._replicas.answers([(point, number, count)])[0] for m in (self, moved))
+                row, begin, end = np.zeros(size), end, end + len(before)
+                with np.errstate(invalid="ignore", over="ignore"):  # runs that stop, or run away, have none
+                    row[begin:end] = after - before
+                if np.isfinite(row).all() and np.any(row):
+                    found.append(row)
+        return np.array(found) if found else np.zeros((0, size))
+
+    @cached_property
+    def _with_earlier_inputs(self) -> list[SystemModel]:
+        """The same with one input that was sampled half a row earlier in each recording, for each such input."""
+        scenario, recordings, free, found = self._given
+        conditions = [scenario_of(scenario, r) for r in recordings]
+        sampled = {
+            (i.component, i.output) for s, r in zip(conditions, recordings) for i in r.inputs if row_length(s, i) > 0.0
+        }
+        models = []
+        for one in sorted(sampled):
+            moved = [
+                replace(
+                    r,
+                    inputs=tuple(
+                        earlier(i, HALF) if (i.component, i.output) == one and row_length(s, i) > 0.0 else i
+                        for i in r.inputs
+                    ),
+                )
+                for s, r in zip(conditions, recordings)
+            ]
+            models.append(SystemModel(scenario, moved, free, found, self._batches))
+        return models
 
     @cached_property
     def _with_shorter_steps(self) -> SystemModel | None:

@@ -147,6 +147,10 @@ class WrappedModel:
         """As the inner model has it, whose residuals these are."""
         return self.inner.solving_error(self.inside(point))
 
+    def row_shifts(self, point: Point) -> Array:
+        """As the inner model has them, whose residuals these are."""
+        return self.inner.row_shifts(self.inside(point))
+
     @property
     def has_ridges(self) -> bool:
         """See `diagnosis.search.problem.has_ridges`."""
