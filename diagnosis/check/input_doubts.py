@@ -181,12 +181,12 @@ def _doubt(
 
 def _voltage(compared: Compared, one: InputComparison) -> Doubt:
     text = (
-        f"the measured voltage of the supply {how(one)}, compared with the programme; they differ in "
-        f"{percent(one.share)} of the time; the simulation uses the programme"
+        f"the measured voltage of the supply {how(one)}, compared with what the scenario as it is gives from its "
+        f"programme; they differ in {percent(one.share)} of the time; the simulation uses the programme"
     )
     remedy = (
-        "was the supply set as the programme says? If so look at limit and source resistance; else give the column "
-        "under `inputs`"
+        "was the supply set as the programme says? If so look at limit and source resistance, beside which numbers of "
+        "the coils decide too; else give the column under `inputs`"
     )
     return _told(compared, one, "input", text, remedy, False, 0.0)
 

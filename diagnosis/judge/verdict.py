@@ -136,6 +136,8 @@ def why_open(
     strained = np.flatnonzero(np.abs(outcome.base.point.base / outcome.base.widths) > STRAINED).tolist()
     if len(strained):
         reasons.append(_strained([parameter_words(names[int(i)]) for i in strained] if names else [], len(strained)))
+    if reasons and _ROWS not in reasons and any(f.is_within_rows for f in found):
+        reasons.append(_ROWS)
     # Where something is open, one recording that stands out from all others is the first thing to look at.
     return (*(_apart(d) for d in doubts if d.kind == ODD and reasons), *reasons)
 

@@ -19,8 +19,8 @@ import numpy as np
 from cosim.unit.protocol import Array
 from evaluation.fmus.model import OdeModel
 from evaluation.strangers.eighth_set import idle_column
-from evaluation.strangers.eleventh_set import RPM, telegraph
-from evaluation.strangers.fifteenth_set import DEGREES, ramped
+from evaluation.strangers.eleventh_set import DEGREES, RPM, telegraph
+from evaluation.strangers.fifteenth_set import ramped
 from evaluation.strangers.fifth_set import integrated
 from evaluation.strangers.first_set import PLAIN, Rng, programme, scenario
 from evaluation.strangers.fmi3 import build as build3

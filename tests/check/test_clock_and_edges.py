@@ -16,7 +16,7 @@ from diagnosis.check.beside import Compared, compare, lagged
 from diagnosis.check.clock_doubts import _size, shift_doubts
 from diagnosis.check.clock_shift import Shift, clock_shift, direct_gain, event_gain, timed_channel
 from diagnosis.check.edges import edge_doubts, edges
-from diagnosis.check.timing import _interval, timing_doubts
+from diagnosis.check.timing import _factors, _interval, _own, leading, resolution, timing_doubts
 from diagnosis.recording.recording import load_recording
 from tests.check import rig
 
@@ -173,6 +173,24 @@ def test_a_clock_that_runs_wrong(scenario: Scenario, tmp_path: Path) -> None:
     assert found.is_rate
     low, high = found.interval
     assert low <= 0.04 / found.rate <= high
+
+
+@pytest.mark.parametrize("share", [0.9, 1.0, 1.13])
+def test_a_rate_near_the_least_that_is_tried_lies_in_its_interval(
+    scenario: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, share: float
+) -> None:
+    """The grid that finds a rate begins at one and a half readings over the recording; that is no bound of the rate."""
+    monkeypatch.setattr("diagnosis.check.timing.critical", lambda tests: -10.0)  # it is refined though this rig is slow
+    points = [[t, *(levels[n % 2] for levels in ((0.9, 0.0), (0.0, 0.9)))] for n, t in enumerate(range(0, 600, 40))]
+    plain = beside(scenario, tmp_path / "a", points, rig.temperatures(points))
+    least = 1.5 * max(resolution(plain, b.channel) for b in leading(plain)) / (plain.end - plain.begin)
+    times = rig.instants() * (1.0 + share * least)
+    one = compare(scenario, load_recording(rig.write(tmp_path / "b", points, rig.temperatures(points), times=times)))
+    leads = leading(one)
+    (rival,) = _factors(one, leads, [_own(one, b) for b in leads])
+    rate, low, high = (float(v) for v in re.findall(r"([\d.]+) (?:%|to)", rival.text)[:3])
+    assert low <= 100.0 * share * least <= high
+    assert low <= rate <= high
 
 
 def test_a_shift_within_its_bound_is_none(scenario: Scenario, tmp_path: Path) -> None:

@@ -25,7 +25,7 @@ from evaluation.fmus.model import OdeModel
 from tests.systems.rigs import held, write_recording
 
 #: A pump that answers with a lag, and a level that follows it.
-LAG, SETTLING, NOISE = 0.3, 1.5, 0.01
+LAG, SETTLING, NOISE = 0.3, 1.5, 0.012
 PUMP = OdeModel(
     "pump",
     {"lag": (LAG, "s"), "settling": (SETTLING, "s")},
@@ -35,14 +35,14 @@ PUMP = OdeModel(
 )
 SCENARIO = """\
 title: A pump
-time: {stop: 60 s, macro_step: 20 ms, output_step: 0.1 s}
+time: {stop: 180 s, macro_step: 20 ms, output_step: 0.1 s}
 components:
   desk: {kind: programme, outputs: {flow: {unit: m^3/s, constant: 0 m^3/s}}}
   pump: {kind: fmu, fmu: pump.fmu, integrator: cvode, parameter_set: numbers.yaml}
 connections: [desk.flow -> pump.given]
 """
 #: Readings and rows of the input are so many seconds apart; the truth has finer steps.
-ROW, FINE, COUNT = 0.1, 0.02, 600
+ROW, FINE, COUNT = 0.1, 0.02, 1800
 
 
 def recorded(folder: Path, late: int, drag: float) -> list[Recording]:
@@ -61,7 +61,7 @@ def recorded(folder: Path, late: int, drag: float) -> list[Recording]:
     found, per = [], round(ROW / FINE)
     for number in range(3):
         rng = np.random.default_rng([7, number])
-        rows = np.repeat(rng.uniform(0.2, 1.0, COUNT // 20), 20)  # 29 changes: more than have instants of their own
+        rows = np.repeat(rng.uniform(0.2, 1.0, COUNT // 20), 20)  # 89 changes: more than have instants of their own
         fine = np.roll(np.repeat(rows, per), -late)
         x = held(rate, np.zeros(2), fine, FINE)[::per, 1]
         columns = {"t": ROW * np.arange(COUNT), "q": rows, "h": x + NOISE * rng.standard_normal(COUNT)}
@@ -78,15 +78,15 @@ def answer(folder: Path, recordings: list[Recording]) -> Diagnosis:
 
 @pytest.fixture(scope="module")
 def early(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[Recording]]:
-    """Changes came 0.06 s before their rows; nothing else is missing."""
+    """Changes came 0.08 s before their rows; nothing else is missing."""
     folder = tmp_path_factory.mktemp("early")
-    return folder, recorded(folder, 3, 0.0)
+    return folder, recorded(folder, 4, 0.0)
 
 
 def test_the_shift_of_half_a_row_is_that_of_an_input_that_came_so_much_earlier(
     early: tuple[Path, list[Recording]],
 ) -> None:
-    """0.06 s are 1.2 halves of a row, so that 1.2 times the shift leaves what the true numbers leave: noise."""
+    """0.08 s are 1.6 halves of a row, so that 1.6 times the shift leaves what the true numbers leave: noise."""
     folder, recordings = early
     model = ClosedLoopModel(load_scenario(folder / "scenario.yaml"), recordings)
     zero = Point(np.zeros(len(model.parameters)))
@@ -96,7 +96,7 @@ def test_the_shift_of_half_a_row_is_that_of_an_input_that_came_so_much_earlier(
     assert [np.flatnonzero(s).max() // COUNT for s in shifts] == [0, 1, 2]
     left = model.residuals([zero])[0]
     assert np.mean(left**2) > 1.15
-    assert np.mean((left + 1.2 * shifts.sum(axis=0)) ** 2) == pytest.approx(1.0, abs=0.07)
+    assert np.mean((left + 1.6 * shifts.sum(axis=0)) ** 2) == pytest.approx(1.0, abs=0.07)
 
 
 def test_a_law_that_gains_as_earlier_changes_do_is_refused(early: tuple[Path, list[Recording]]) -> None:
@@ -119,9 +119,11 @@ def test_nothing_is_missing_where_changes_came_before_their_rows(early: tuple[Pa
     folder, recordings = early
     found = answer(folder, recordings)
     assert not found.accepted, [f.effect for f in found.accepted]
-    if found.suggestions and all(f.is_within_rows for f in found.suggestions):
-        assert _unaccepted(found.suggestions) == _ROWS
-        assert found.verdict is not Verdict.CANNOT_TELL or what_decides(found).startswith("Record the inputs with")
+    assert [f.is_within_rows for f in found.suggestions] == [True]
+    assert _unaccepted(found.suggestions) == _ROWS
+    assert found.verdict is Verdict.CANNOT_TELL  # the training readings reject a model without instants of changes
+    assert _ROWS in found.statement
+    assert what_decides(found).startswith("Record the inputs with shorter rows")
 
 
 def test_a_drag_is_found_beside_an_input_in_rows(tmp_path: Path) -> None:
