@@ -8,6 +8,8 @@ from functools import partial
 
 import numpy as np
 
+from cosim.components import CircuitComponent, CurrentLimitElement, SlowSourceElement, SourceResistanceElement
+from cosim.scenario import Scenario
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared, compare
 from diagnosis.check.clock_shift import MOST_CHANNELS, lag_grid, timed_channel
@@ -17,6 +19,8 @@ from diagnosis.judge.diagnosis import Doubt
 from diagnosis.recording.recording import Channel
 from diagnosis.report.display import instant
 
+#: Elements by which the voltage of a source is not that of its programme.
+_OF_A_SOURCE = (SourceResistanceElement, CurrentLimitElement, SlowSourceElement)
 #: Stretches that a sentence lists.
 _LISTED = 4
 #: Share of the variance of the readings from which on a course is not accused: what is left, a law that the model lacks
@@ -76,7 +80,12 @@ def _likelihood(compared: Compared, beside: Beside, course: Beside) -> float:
 
 
 def voltages(compared: Compared) -> list[InputComparison]:
-    """Measured voltages of the supply beside those of the programme, as simulated."""
+    """Measured voltages of the supply beside those of the programme, as simulated.
+
+    None where the source gives what the coils draw: numbers of these that are off move its voltage too.
+    """
+    if not _is_stiff(compared.scenario):
+        return []
     found = []
     for beside in compared.channels.values():
         channel = beside.channel
@@ -100,6 +109,14 @@ def voltages(compared: Compared) -> list[InputComparison]:
             )
         )
     return found
+
+
+def _is_stiff(scenario: Scenario) -> bool:
+    """Whether each circuit has the voltage of its programme at its terminals, whatever is drawn."""
+    circuits = [c for c in scenario.components.values() if isinstance(c, CircuitComponent)]
+    return not any(
+        c.supply_resistance.to("ohm") > 0.0 or any(isinstance(e, _OF_A_SOURCE) for e in c.elements) for c in circuits
+    )
 
 
 def _interpolated(times: Array, values: Array, at: Array) -> Array:
@@ -181,12 +198,12 @@ def _doubt(
 
 def _voltage(compared: Compared, one: InputComparison) -> Doubt:
     text = (
-        f"the measured voltage of the supply {how(one)}, compared with what the scenario as it is gives from its "
-        f"programme; they differ in {percent(one.share)} of the time; the simulation uses the programme"
+        f"the measured voltage of the supply {how(one)}, compared with the programme; they differ in "
+        f"{percent(one.share)} of the time; the simulation uses the programme"
     )
     remedy = (
-        "was the supply set as the programme says? If so look at limit and source resistance, beside which numbers of "
-        "the coils decide too; else give the column under `inputs`"
+        "was the supply set as the programme says? If so look at limit and source resistance; else give the column "
+        "under `inputs`"
     )
     return _told(compared, one, "input", text, remedy, False, 0.0)
 
