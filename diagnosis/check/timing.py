@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -38,6 +38,9 @@ KNOTS = 8
 FREE_LEFT = 0.2
 #: Instants at which an unknown switch may lie.
 INSTANTS = 120
+
+#: Gain in -2 log likelihood, size, and fits of the channels.
+_Tried = tuple[float, float, list[Fit]]
 
 
 @dataclass(frozen=True)
@@ -232,12 +235,7 @@ def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> 
         return together(leads, own, np.array([gain(a, f) for a, f in zip(own, fits)])) - price, shift, fits
 
     tried = [moved(float(s)) for s in (*-sizes[::-1], *sizes[sizes > slowest + bound])]
-    best = max(tried, key=lambda one: one[0])
-    if best[0] > critical(4.0):  # it will be told: more exactly than on the grid
-        near = best[1] * (sizes[1] / sizes[0]) ** np.linspace(-1.0, 1.0, FINER)
-        tried += map(moved, near.tolist())
-        best = max([best, *tried], key=lambda one: one[0])
-    gained, shift, fits = best
+    tried, (gained, shift, fits) = _refined(tried, moved, sizes[1] / sizes[0])
     low, high = _interval([(g, s) for g, s, _ in tried], shift)
     if shift < 0.0 and gained < _direct_gain(compared, leads, own) + critical(1.0):
         return []
@@ -260,6 +258,20 @@ def _shifts(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) -> 
     )
     remedy = "is this the programme that was run? Correct `overrides`, `inputs` or `time.zero`"
     return [Rival("programme", driver(compared), text, remedy, gained, _shares(own), _shares(fits))]
+
+
+def _refined(tried: list[_Tried], asked: Callable[[float], _Tried], ratio: float) -> tuple[list[_Tried], _Tried]:
+    """All that was tried and the best of it: more exactly than on the grid, whose ends are no bounds, if it is told.
+
+    Args:
+        tried: On the grid.
+        asked: Tries a size.
+        ratio: Of two sizes of the grid, one after the other.
+    """
+    best = max(tried, key=lambda one: one[0])
+    if best[0] > critical(4.0):
+        tried = [*tried, *map(asked, (best[1] * ratio ** np.linspace(-1.0, 1.0, FINER)).tolist())]
+    return tried, max(tried, key=lambda one: one[0])
 
 
 def _interval(tried: Sequence[tuple[float, float]], best: float) -> tuple[float, float]:
@@ -297,11 +309,7 @@ def _factors(compared: Compared, leads: Sequence[Beside], own: Sequence[Fit]) ->
         return together(leads, own, np.array([gain(a, f) for a, f in zip(own, fits)])) - price, size, fits
 
     tried = [run_at(float(size)) for size in (*-sizes[::-1], *sizes)]
-    best = max(tried, key=lambda one: one[0])
-    if best[0] > critical(4.0):  # it will be told: more exactly than on the grid, whose least is no bound of it
-        tried += map(run_at, (best[1] * (sizes[1] / sizes[0]) ** np.linspace(-1.0, 1.0, FINER)).tolist())
-        best = max(tried, key=lambda one: one[0])
-    gained, size, fits = best
+    tried, (gained, size, fits) = _refined(tried, run_at, sizes[1] / sizes[0])
     low, high = (100.0 * v for v in _interval([(g, s) for g, s, _ in tried], size))
     text = (
         f"the readings' clock runs {100.0 * abs(size):.2g} % too {'fast' if size > 0 else 'slow'} ({low:.2g} to "

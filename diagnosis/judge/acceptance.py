@@ -443,39 +443,6 @@ def _of_solving(judge: _Judge, term: Term, current: Explanation, without: Fit) -
     ]
 
 
-def _alike(outcome: Outcome, training: Unfitted) -> Mapping[str, float]:
-    """Correlations of neighbouring readings; none where the training readings reject the recalibrated model."""
-    plain = agreement(training.predict(outcome.base.point, is_fitted=False).residuals, training.readings)
-    return {} if plain.is_rejected else plain.alike
-
-
-def _of_noise(model: Model, margin: float, alike: Mapping[str, float], current: Explanation, without: Fit) -> str:
-    """Why what is judged by its own recording may be noise; empty where it is not.
-
-    Args:
-        model: Of the training recordings.
-        margin: What a term must gain.
-        alike: See `_alike`.
-        current: Explanation with the term.
-        without: The fit without it.
-    """
-    fall = loss(without.residuals) - loss(current.fit.residuals)
-    own = np.bincount(np.asarray(model.layout.channel, dtype=int), fall, minlength=len(model.layout.names))
-    names = [n for n, amount in zip(model.layout.names, own) if amount > SHOWS * own.max()]
-    times = times_white(alike, names)
-    if times <= 1.0 or float(own.sum()) > margin * times:
-        return ""
-    return (
-        "the training readings do not reject the model without it, and noise that is alike from one reading to the "
-        "next, as it may be here, gains as much"
-    )
-
-
-def _worse(channels: Sequence[str]) -> str:
-    more = f" and {len(channels) - 3} more" if len(channels) > 3 else ""
-    return f"with it these are predicted worse: {', '.join(channels[:3])}{more}"
-
-
 def _of_rows(judge: _Judge, term: Term, current: Explanation, without: Fit, margin: float) -> list[str]:
     """Why a law is not accepted that gains as rows of recorded inputs do which stand late: none, or one reason.
 
@@ -507,3 +474,36 @@ def _of_rows(judge: _Judge, term: Term, current: Explanation, without: Fit, marg
         "changes of recorded inputs stand in the row after them: where they came up to a row earlier the training "
         f"readings are met as well (-2 log likelihood falls by {likelihood(rows)}, with the law by {likelihood(law)})"
     ]
+
+
+def _alike(outcome: Outcome, training: Unfitted) -> Mapping[str, float]:
+    """Correlations of neighbouring readings; none where the training readings reject the recalibrated model."""
+    plain = agreement(training.predict(outcome.base.point, is_fitted=False).residuals, training.readings)
+    return {} if plain.is_rejected else plain.alike
+
+
+def _of_noise(model: Model, margin: float, alike: Mapping[str, float], current: Explanation, without: Fit) -> str:
+    """Why what is judged by its own recording may be noise; empty where it is not.
+
+    Args:
+        model: Of the training recordings.
+        margin: What a term must gain.
+        alike: See `_alike`.
+        current: Explanation with the term.
+        without: The fit without it.
+    """
+    fall = loss(without.residuals) - loss(current.fit.residuals)
+    own = np.bincount(np.asarray(model.layout.channel, dtype=int), fall, minlength=len(model.layout.names))
+    names = [n for n, amount in zip(model.layout.names, own) if amount > SHOWS * own.max()]
+    times = times_white(alike, names)
+    if times <= 1.0 or float(own.sum()) > margin * times:
+        return ""
+    return (
+        "the training readings do not reject the model without it, and noise that is alike from one reading to the "
+        "next, as it may be here, gains as much"
+    )
+
+
+def _worse(channels: Sequence[str]) -> str:
+    more = f" and {len(channels) - 3} more" if len(channels) > 3 else ""
+    return f"with it these are predicted worse: {', '.join(channels[:3])}{more}"

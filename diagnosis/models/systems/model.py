@@ -217,38 +217,40 @@ class SystemModel(CompiledModel):
 
     def row_shifts(self, point: Point) -> Array:
         """See `diagnosis.models.protocol.DiagnosisModel`."""
-        found, size = [], len(self.layout.time)
-        count = self._steps_of(point)
+        count, ends = self._steps_of(point), np.cumsum(self._sizes)
+        found: list[Array] = []
+        before = self._residuals_by(point, count) if self._with_earlier_inputs else np.zeros(0)
         for moved in self._with_earlier_inputs:
-            end = 0
-            for number in range(len(self.recordings)):
-                before, after = (m._replicas.answers([(point, number, count)])[0] for m in (self, moved))
-                row, begin, end = np.zeros(size), end, end + len(before)
-                with np.errstate(invalid="ignore", over="ignore"):  # runs that stop, or run away, have none
-                    row[begin:end] = after - before
+            with np.errstate(invalid="ignore", over="ignore"):  # runs that stop, or run away, have none
+                change = moved._residuals_by(point, count) - before
+            for begin, end in zip((0, *ends), ends):
+                row = np.zeros(len(change))
+                row[begin:end] = change[begin:end]
                 if np.isfinite(row).all() and np.any(row):
                     found.append(row)
-        return np.array(found) if found else np.zeros((0, size))
+        return np.array(found) if found else np.zeros((0, len(self.layout.time)))
 
     @cached_property
     def _with_earlier_inputs(self) -> list[SystemModel]:
         """The same with one input that was sampled half a row earlier in each recording, for each such input."""
         scenario, recordings, free, found = self._given
-        conditions = [scenario_of(scenario, r) for r in recordings]
         sampled = {
-            (i.component, i.output) for s, r in zip(conditions, recordings) for i in r.inputs if row_length(s, i) > 0.0
+            (number, i.component, i.output)
+            for number, r in enumerate(recordings)
+            for i in r.inputs
+            if row_length(self.scenarios[number], i) > 0.0
         }
         models = []
-        for one in sorted(sampled):
+        for name in sorted({one[1:] for one in sampled}):
             moved = [
                 replace(
                     r,
                     inputs=tuple(
-                        earlier(i, HALF) if (i.component, i.output) == one and row_length(s, i) > 0.0 else i
+                        earlier(i, HALF) if (i.component, i.output) == name and (number, *name) in sampled else i
                         for i in r.inputs
                     ),
                 )
-                for s, r in zip(conditions, recordings)
+                for number, r in enumerate(recordings)
             ]
             models.append(SystemModel(scenario, moved, free, found, self._batches))
         return models
