@@ -14,7 +14,7 @@ bool model_start(Model *model, char *message, size_t size)
     Step step;
     Bound bound;
     Step *s = bind(model, &step, &bound);
-    if (bound.plan.pairs > 0 && s->coils != PAIRED_COILS) {
+    if (bound.plan.pairs + bound.plan.contacts > 0 && s->coils != PAIRED_COILS) {
         snprintf(message, size, "coils = %zu: the coils that touch each other are those of %d coils", model->coils,
                  PAIRED_COILS);
         return false;

@@ -48,7 +48,11 @@ def neighbour_inputs(terms: Sequence[CandidateTerm]) -> list[str]:
 
 
 def actuator_source(
-    terms: Sequence[CandidateTerm], layout: CoilNetworkLayout, ports: Sequence[Port], inputs: Sequence[str]
+    terms: Sequence[CandidateTerm],
+    layout: CoilNetworkLayout,
+    ports: Sequence[Port],
+    inputs: Sequence[str],
+    contacts: Sequence[tuple[int, int]] = (),
 ) -> Source:
     """Sources of the coils.
 
@@ -57,6 +61,7 @@ def actuator_source(
         layout: Coils and strings.
         ports: What the load wants to be told, beside stiffness and rest length.
         inputs: Inputs beside power and ambient temperature: `extension`, `tension`, `current`.
+        contacts: Pairs of coils that touch.
     """
     shown = [p for p in ports if p.array != "temperature"]
     rows = [
@@ -92,7 +97,8 @@ def actuator_source(
             "give_outputs": "".join(give(p) for p in shown) + show_states(terms),
         }
     )
-    return assemble_source("actuator", "Coils with the terms that a diagnosis found", rows, terms, layout, functions)
+    what = "Coils with the terms that a diagnosis found"
+    return assemble_source("actuator", what, rows, terms, layout, functions, contacts)
 
 
 #: The ambient temperature of the step, and the power of every coil.

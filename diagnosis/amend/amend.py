@@ -91,7 +91,8 @@ def write_amended(
     layout, in_load = changes.translation.layout, _terms(changes, Part.LOAD)
     data = amended_data(scenario, changes, files)  # first: what cannot be said is refused before anything is built
     if files.actuator is not None:
-        source = actuator_source(_terms(changes, Part.ACTUATOR), layout, load_ports(in_load), actuator_inputs(changes))
+        terms, ports = _terms(changes, Part.ACTUATOR), load_ports(in_load)
+        source = actuator_source(terms, layout, ports, actuator_inputs(changes), changes.contacts)
         _build("actuator", source, folder, layout.coils, versions)
     if files.load is not None:
         _build("load", load_source(in_load, layout), folder, layout.coils, versions)

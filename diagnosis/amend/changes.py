@@ -10,7 +10,7 @@ import numpy as np
 from cosim.scenario import Scenario
 from diagnosis.amend.parts import Part, part_of
 from diagnosis.candidates.candidate import CandidateTerm
-from diagnosis.models.coil_network.kernel.layout import QUANTITY_FIELDS, Array
+from diagnosis.models.coil_network.kernel.layout import QUANTITY_FIELDS, Array, CoilNetworkLayout
 from diagnosis.models.coil_network.kernel.parameters import CoilNetworkParameters
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.translate import Translation, translate
@@ -45,6 +45,13 @@ class FittedTerm:
         """Where it acts."""
         return part_of(self.term)
 
+    def contacts(self, layout: CoilNetworkLayout) -> dict[tuple[int, int], int]:
+        """Pairs of coils of a term that acts between them, where its amplitude is not 0, to their numbers."""
+        if self.term.axis != "pair":
+            return {}
+        amplitude = self.values[self.term.amplitude.name]
+        return {layout.contacts[n]: n for n in np.flatnonzero(amplitude).tolist()}
+
 
 @dataclass(frozen=True)
 class Changes:
@@ -71,6 +78,11 @@ class Changes:
     def of(self, part: Part) -> list[FittedTerm]:
         """The terms of a part."""
         return [t for t in self.terms if t.part is part]
+
+    @property
+    def contacts(self) -> list[tuple[int, int]]:
+        """Pairs of coils that touch."""
+        return sorted({pair for t in self.terms for pair in t.contacts(self.translation.layout)})
 
     def value(self, field: str) -> Array:
         """Recalibrated value of a base parameter of the network, SI."""

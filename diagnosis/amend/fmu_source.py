@@ -71,6 +71,11 @@ def parameter_name(term: CandidateTerm, parameter: str) -> str:
     return f"{term.identifier}_{parameter}"
 
 
+def contact_parameter(term: CandidateTerm, parameter: str, pair: tuple[int, int]) -> str:
+    """Name of a parameter of two coils that touch, for example `touching_coils_g_1_3`: coils counted from 1."""
+    return f"{parameter_name(term, parameter)}_{pair[0] + 1}_{pair[1] + 1}"
+
+
 def first_rows() -> list[Row]:
     """Time and number of coils."""
     return [
@@ -124,19 +129,24 @@ def fields_in(terms: Sequence[CandidateTerm]) -> list[str]:
     return [name for name in COIL_FIELDS if name in used]
 
 
-def term_rows(terms: Sequence[CandidateTerm]) -> list[Row]:
-    """Parameters of the terms, one after the other: the network reads them as one block."""
-    return [
-        Row(
-            parameter_name(t, p.name),
-            "PARAMETER",
-            p.unit,
-            "0" if p.is_amplitude else repr(p.starts[0]),
-            f"{t.name}: {p.name} in {t.law}",
-        )
-        for t in terms
-        for p in t.parameters
-    ]
+def term_rows(terms: Sequence[CandidateTerm], contacts: Sequence[tuple[int, int]] = ()) -> list[Row]:
+    """Parameters of the terms, one after the other: the network reads them as one block.
+
+    Args:
+        terms: The terms.
+        contacts: Pairs of coils that may touch in this FMU; a term of them has a scalar for each.
+    """
+    rows = []
+    for term in terms:
+        for p in term.parameters:
+            start, what = "0" if p.is_amplitude else repr(p.starts[0]), f"{term.name}: {p.name} in {term.law}"
+            if term.axis != "pair":
+                rows.append(Row(parameter_name(term, p.name), "PARAMETER", p.unit, start, what))
+                continue
+            for pair in contacts:
+                of = f"{what}, of the coils {pair[0] + 1} and {pair[1] + 1}"
+                rows.append(Row(contact_parameter(term, p.name, pair), "PARAMETER", p.unit, start, of, is_scalar=True))
+    return rows
 
 
 def _states(terms: Sequence[CandidateTerm]) -> list[str]:
@@ -161,6 +171,7 @@ def assemble_source(
     terms: Sequence[CandidateTerm],
     layout: CoilNetworkLayout,
     functions: Functions,
+    contacts: Sequence[tuple[int, int]] = (),
 ) -> Source:
     """All of it.
 
@@ -171,18 +182,31 @@ def assemble_source(
         terms: Terms of this part, in the order of the catalogue.
         layout: Coils and strings.
         functions: What the part calls.
+        contacts: Pairs of coils that touch.
     """
-    table = [*rows, *term_rows(terms), *hidden_rows(terms)]
+    table = [*rows, *term_rows(terms, contacts), *hidden_rows(terms)]
     model = "\n".join(
-        [_HEAD, generate(terms), _bind(terms, layout), functions.text(), (_FOLDER / f"{part}.c").read_text("utf-8")]
+        [
+            _HEAD,
+            generate(terms),
+            _bind(terms, layout, contacts),
+            functions.text(),
+            (_FOLDER / f"{part}.c").read_text("utf-8"),
+        ]
     )
     return Source(config(f"amended_{part}", what, table), model, _page(what, terms))
 
 
-def _bind(terms: Sequence[CandidateTerm], layout: CoilNetworkLayout) -> str:
+def _first_name(term: CandidateTerm, contacts: Sequence[tuple[int, int]]) -> str:
+    """Name of the variable that the block of a term's parameters begins with."""
+    name = term.parameters[0].name
+    return contact_parameter(term, name, contacts[0]) if term.axis == "pair" else parameter_name(term, name)
+
+
+def _bind(terms: Sequence[CandidateTerm], layout: CoilNetworkLayout, contacts: Sequence[tuple[int, int]]) -> str:
     """C function that points the arrays of a step into the block of values of an instance."""
     offsets = "".join(
-        f"    bound->offset[{n}] = (int64_t)model->offset[VAR_{parameter_name(t, t.parameters[0].name)}];\n"
+        f"    bound->offset[{n}] = (int64_t)model->offset[VAR_{_first_name(t, contacts)}];\n"
         for n, t in enumerate(terms)
     )
     arrays = "".join(f"    s->{n} = ARRAY(step_{n});\n" for n in _arrays())
@@ -191,10 +215,11 @@ def _bind(terms: Sequence[CandidateTerm], layout: CoilNetworkLayout) -> str:
         arrays += f"    s->state = ARRAY(state_{states[0]});\n    s->state_rate = ARRAY(rate_{states[0]});\n"
     has_pairs = any("pairs" in t.lines for t in terms)
     pairs = layout.pairs if has_pairs else ()
-    numbers = [", ".join(str(pair[side]) for pair in pairs) or "0" for side in (0, 1)]
+    numbers = [", ".join(str(p[side]) for p in some) or "0" for some in (pairs, contacts) for side in (0, 1)]
     return f"""
 #define PAIRED_COILS {layout.coils}
 static const int64_t pairs_a[] = {{{numbers[0]}}}, pairs_b[] = {{{numbers[1]}}};
+static const int64_t contacts_a[] = {{{numbers[2]}}}, contacts_b[] = {{{numbers[3]}}};
 
 typedef struct {{
     Plan plan;
@@ -213,6 +238,9 @@ static Step *bind(Model *model, Step *s, Bound *bound)
     plan->pairs = {len(pairs)};
     plan->pair_a = pairs_a;
     plan->pair_b = pairs_b;
+    plan->contacts = {len(contacts)};
+    plan->contact_a = contacts_a;
+    plan->contact_b = contacts_b;
     plan->ambient = bound->ambient;
     plan->time = bound->time;
     plan->term_offset = bound->offset;

@@ -229,8 +229,8 @@ def carried(recording: Recording, amended: AmendedModel) -> Recording:
             components[name] = _carried_component(components[name], name == translation.load, amended)
     terms = _own_terms(recording, amended)
     own: dict[str | None, dict[str, Any]] = {
-        translation.actuator: term_parameters([t for t in terms if t.part is Part.ACTUATOR]),
-        translation.load: term_parameters([t for t in terms if t.part is Part.LOAD]),
+        translation.actuator: term_parameters([t for t in terms if t.part is Part.ACTUATOR], translation.layout),
+        translation.load: term_parameters([t for t in terms if t.part is Part.LOAD], translation.layout),
     }
     if amended.files.actuator is not None and recording.cycles_before != amended.changes.cycles_before:
         own[translation.actuator]["cycles_before"] = f"{recording.cycles_before:.10g}"

@@ -17,10 +17,10 @@ from cosim.yaml_file import parse_yaml, read_text
 from diagnosis.amend.actuator_fmu import neighbour_inputs
 from diagnosis.amend.changes import SAME, CannotAmend, Changes, FittedTerm
 from diagnosis.amend.circuit_elements import circuit_elements, quantity
-from diagnosis.amend.fmu_source import parameter_name
+from diagnosis.amend.fmu_source import contact_parameter, parameter_name
 from diagnosis.amend.load_fmu import load_fields
 from diagnosis.amend.parts import Part, load_ports
-from diagnosis.models.coil_network.kernel.layout import COIL_FIELDS, Array
+from diagnosis.models.coil_network.kernel.layout import COIL_FIELDS, Array, CoilNetworkLayout
 from diagnosis.models.coil_network.translate import GRAVITY
 from diagnosis.search.cosim_run import shifted
 
@@ -115,11 +115,16 @@ def _move_room(data: dict[str, Any], changes: Changes) -> None:
     data["components"][component]["outputs"][output] = moved.model_dump(mode="json", exclude_defaults=True)
 
 
-def term_parameters(terms: list[FittedTerm]) -> dict[str, Any]:
+def term_parameters(terms: list[FittedTerm], layout: CoilNetworkLayout) -> dict[str, Any]:
     """Parameters of terms by their names in the generated FMUs."""
-    return {
-        parameter_name(t.term, p.name): write_number(t.values[p.name], p.unit) for t in terms for p in t.term.parameters
-    }
+    found: dict[str, Any] = {}
+    for t in terms:
+        for p in t.term.parameters:
+            if t.term.axis != "pair":
+                found[parameter_name(t.term, p.name)] = write_number(t.values[p.name], p.unit)
+            for pair, n in t.contacts(layout).items():
+                found[contact_parameter(t.term, p.name, pair)] = write_number(t.values[p.name][n], p.unit)
+    return found
 
 
 def _actuator(scenario: Scenario, given: dict[str, Any], changes: Changes, files: Files) -> dict[str, Any]:
@@ -137,7 +142,7 @@ def _actuator(scenario: Scenario, given: dict[str, Any], changes: Changes, files
         result["structure"] = {"coils": changes.translation.layout.coils}
         for key in ("integrator", "tolerance", "fmi"):
             result.pop(key, None)
-        own |= term_parameters(changes.of(Part.ACTUATOR))
+        own |= term_parameters(changes.of(Part.ACTUATOR), changes.translation.layout)
         if changes.cycles_before:
             own["cycles_before"] = write_number(np.asarray(changes.cycles_before), "1")
         if "power_gain" in changes.factors:
@@ -196,15 +201,15 @@ def _load(given: dict[str, Any], changes: Changes, files: Files) -> dict[str, An
         if isinstance(mass, list):
             raise CannotAmend("the mass differs from coil to coil")
         return {**given, "mass": mass}
-    terms = changes.of(Part.LOAD)
+    terms, layout = changes.of(Part.LOAD), changes.translation.layout
     fields = {
         name: write_number(changes.value(name), COIL_FIELDS[name][1]) for name in load_fields([t.term for t in terms])
     }
     return {
         "kind": "fmu",
         "fmu": files.load,
-        "structure": {"coils": changes.translation.layout.coils},
-        "parameters": {"mass": mass, "gravity": quantity(GRAVITY, "m/s^2"), **fields, **term_parameters(terms)},
+        "structure": {"coils": layout.coils},
+        "parameters": {"mass": mass, "gravity": quantity(GRAVITY, "m/s^2"), **fields, **term_parameters(terms, layout)},
     }
 
 

@@ -11,7 +11,7 @@ from diagnosis.candidates.sizes import EITHER_SIGN, ONE_SIGN, SCALES, SMALLEST, 
 
 Unit = Literal["electrical", "thermal", "stiffness", "mechanical", "measurement"]
 #: Where a candidate can act. `swap`: two channels of one quantity that were mistaken for each other; `powered`: all
-#: coils of a network without a circuit, whose power is given.
+#: coils of a network without a circuit, whose power is given; `pair`: two coils that may touch.
 PlaceKind = Literal[
     "coil",
     "string",
@@ -27,8 +27,9 @@ PlaceKind = Literal[
     "channel",
     "quantity",
     "swap",
+    "pair",
 ]
-Axis = Literal["coil", "string", "source", "channel"]
+Axis = Literal["coil", "string", "source", "channel", "pair"]
 StateKind = Literal["continuous", "memory", "shared"]
 #: `rig`: what sets in lasts, in later recordings too. `day`: it belongs to one day, and other days do not have it.
 Scope = Literal["rig", "day"]
@@ -41,6 +42,7 @@ HOOK_AXES: Mapping[str, Axis] = {
     "string": "string",
     "supply": "source",
     "pairs": "coil",
+    "contacts": "pair",
     "heat": "coil",
     "state": "coil",
     "gather": "coil",

@@ -11,6 +11,7 @@ HOOKS: Mapping[str, str] = {
     "string": "what lies in series with a string",
     "supply": "a source: its voltage, inner resistance and limit",
     "pairs": "heat between coils that touch: set `exchange` [W/K]; parameters end in `_a`, `_b`",
+    "contacts": "heat between two coils that may touch: set `exchange` [W/K]; parameters are those of the pair",
     "heat": "heat balance of a coil, once its power is known",
     "state": "added states, continuous: set `<state>_inflow` and `<state>_rate` of d state/dt = inflow - rate * state",
     "gather": "sums over the coils for a shared state: set `gathered` and `weight`",

@@ -48,7 +48,7 @@ def strengths(term: CandidateTerm, layout: CoilNetworkLayout) -> dict[str, Array
     if "instant" in values:
         values["instant"] = np.full_like(values["instant"], INSTANT)
     amplitude = values[term.amplitude.name]
-    if {"coil", "string"} & set(term.places):
+    if {"coil", "string", "pair"} & set(term.places):
         amplitude[1::2] = 0.0
     elif any(place.endswith("gradient") for place in term.places):
         amplitude *= np.linspace(1.0, -1.0, amplitude.size)

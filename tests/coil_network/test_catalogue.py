@@ -66,8 +66,8 @@ def widest_place(term):
 
 @pytest.fixture(scope="module")
 def base():
-    # Strings of unequal resistance, so that neighbours differ in temperature.
-    parameters = LOADED.with_base(reference_resistance=np.repeat([2.2, 2.6], 6))
+    # Coils of unequal resistance, so that neighbours differ in temperature, in a string too.
+    parameters = LOADED.with_base(reference_resistance=np.linspace(2.2, 2.6, 12))
     return parameters, full_network(NETWORK).simulate(parameters, network_inputs(), TIMES)
 
 
@@ -87,6 +87,7 @@ def test_the_catalogue_holds_every_effect_that_was_asked_for():
         "temperature_dependent_convection",
         "chassis_insulation",
         "neighbour_heat",
+        "touching_coils",
         "ambient_drift",
         "uneven_cooling",
         "stress_dependent_transformation",

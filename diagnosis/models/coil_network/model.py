@@ -219,9 +219,11 @@ class CoilNetworkModel(ModelBase):
         return (0.0,) * len(term.parameters)
 
     def _shows_in(self, candidate: CandidateTerm, place: Place) -> tuple[list[int], bool] | None:
-        if place.kind not in ("coil", "channel", "swap", "string"):
+        if place.kind not in ("coil", "channel", "swap", "string", "pair"):
             return None
         axis, elements = candidate.axis, np.flatnonzero(place.mask)
+        if axis == "pair":
+            axis, elements = "coil", np.unique([self.coils.contacts[n] for n in elements])
         own = np.where(self._channel_axis == axis, self._channel_element, -1)
         touched = np.isin(self._channel_number if axis == "channel" else own, elements)
         found = np.flatnonzero(touched).tolist()

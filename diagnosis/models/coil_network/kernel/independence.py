@@ -11,7 +11,7 @@ from diagnosis.models.coil_network.kernel.layout import Array, CoilNetworkLayout
 from diagnosis.models.coil_network.kernel.parameters import CoilNetworkParameters
 
 #: Hooks through which coils of different strings feel each other.
-_JOINING_HOOKS = frozenset({"pairs", "shared"})
+_JOINING_HOOKS = frozenset({"pairs", "contacts", "shared"})
 _ELECTRICAL = frozenset({"reference_resistance", "resistance_temperature_coefficient", "reference_temperature"})
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import combinations
 from typing import Literal
 
 import numpy as np
@@ -99,6 +100,8 @@ QUANTITIES: Mapping[str, Quantity] = {
     "string_share": Quantity("A", "string", True, "string_current", needs_circuit=True),
 }
 
+#: Coils up to which any two of them may touch; in a larger network those that are neighbours.
+ANY_TWO = 8
 VECTOR = 8  # doubles in the widest vector register (AVX-512)
 
 
@@ -172,6 +175,13 @@ class CoilNetworkLayout:
         return tuple((i, at[other]) for (r, c), i in at.items() for other in ((r, c + 1), (r + 1, c)) if other in at)
 
     @cached_property
+    def contacts(self) -> tuple[tuple[int, int], ...]:
+        """Pairs of coils that may touch although the rig does not mean them to; element n of the axis `pair`."""
+        if self.neighbours is not None or self.coils > ANY_TWO:
+            return self.pairs
+        return tuple(combinations(range(self.coils), 2))
+
+    @cached_property
     def _elements(self) -> dict[str, int]:
         sizes = {"coil": self.coils, "string": len(self.strings), "supply": 1 if self.strings else 0}
         return {
@@ -188,7 +198,7 @@ class CoilNetworkLayout:
     def _sizes(self) -> dict[str, int]:
         channels = sum(self._elements.values())
         sizes = {"coil": self.coils, "string": len(self.strings), "source": self.sources, "channel": channels}
-        return {**sizes, "quantity": len(QUANTITIES)}
+        return {**sizes, "pair": len(self.contacts), "quantity": len(QUANTITIES)}
 
     def elements(self, quantity: str) -> int:
         """Number of elements of a quantity."""

@@ -116,7 +116,12 @@ def _of_kind(
         for s in range(len(layout.strings)):
             yield Place(kind, f"string[{s + 1}]", (layout.string_of_coil == s).astype(np.float64))
     else:
-        names = {"coil": coil_label, "string": lambda _, n: f"string[{n + 1}]", "source": _source_label}[term.axis]
+        names = {
+            "coil": coil_label,
+            "string": lambda _, n: f"string[{n + 1}]",
+            "source": _source_label,
+            "pair": contact_label,
+        }[term.axis]
         for n in range(size):
             yield Place(kind, names(layout, n), _unit(size, n))
 
@@ -159,6 +164,11 @@ def coil_label(layout: CoilNetworkLayout, coil: int) -> str:
     if not layout.strings:
         return f"coil[{coil + 1}]"
     return f"coil[{layout.string_of_coil[coil] + 1},{layout.place_in_string[coil] + 1}]"
+
+
+def contact_label(layout: CoilNetworkLayout, contact: int) -> str:
+    """`coil[1,2] and coil[2,2]`: two coils that touch."""
+    return " and ".join(coil_label(layout, coil) for coil in layout.contacts[contact])
 
 
 def _source_label(layout: CoilNetworkLayout, source: int) -> str:

@@ -9,9 +9,9 @@
 #include <string.h>
 
 typedef struct {
-    int64_t coils, width, strings, sources, steps, is_midpoint, pairs, has_circuit;
+    int64_t coils, width, strings, sources, steps, is_midpoint, pairs, contacts, has_circuit;
     const int64_t *first;        /* first coil of every string, then the number of coils */
-    const int64_t *pair_a, *pair_b;
+    const int64_t *pair_a, *pair_b, *contact_a, *contact_b;
     const double *time;          /* steps + 1 */
     const int8_t *is_switch;     /* steps: an input jumps at the begin of this step */
     const double *voltage;       /* steps x sources */

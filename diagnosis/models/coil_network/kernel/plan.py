@@ -23,7 +23,17 @@ class PlanLayout(ctypes.Structure):
     _fields_ = [
         *(
             (n, ctypes.c_int64)
-            for n in ("coils", "width", "strings", "sources", "steps", "is_midpoint", "pairs", "has_circuit")
+            for n in (
+                "coils",
+                "width",
+                "strings",
+                "sources",
+                "steps",
+                "is_midpoint",
+                "pairs",
+                "contacts",
+                "has_circuit",
+            )
         ),
         *(
             (n, _POINTER)
@@ -31,6 +41,8 @@ class PlanLayout(ctypes.Structure):
                 "first",
                 "pair_a",
                 "pair_b",
+                "contact_a",
+                "contact_b",
                 "time",
                 "is_switch",
                 "voltage",
@@ -78,12 +90,15 @@ class Plan:
             steps=len(inputs.ambient),
             is_midpoint=int(is_midpoint),
             pairs=len(layout.pairs),
+            contacts=len(layout.contacts),
             has_circuit=int(bool(layout.strings) and inputs.power is None),
         )
-        pairs = np.array(layout.pairs, dtype=np.int64).reshape(-1, 2)
+        pairs, contacts = (np.array(p, dtype=np.int64).reshape(-1, 2) for p in (layout.pairs, layout.contacts))
         self._set("first", np.array(layout.first, dtype=np.int64))
         self._set("pair_a", pairs[:, 0])
         self._set("pair_b", pairs[:, 1])
+        self._set("contact_a", contacts[:, 0])
+        self._set("contact_b", contacts[:, 1])
         self._set("time", inputs.time)
         self._set("is_switch", inputs.is_switch.astype(np.int8))
         self._set("ambient", inputs.ambient)

@@ -46,6 +46,7 @@ WRITABLE: Mapping[str, Mapping[str, str]] = {
         "limited": "s->limited[i]",
     },
     "pairs": {},
+    "contacts": {},
     "heat": {
         "heat": "s->heat[i]",
         "conductance": "s->conductance[i]",
@@ -68,6 +69,8 @@ WRITABLE: Mapping[str, Mapping[str, str]] = {
     },
     "sensor": {"value": "sensor->value[n]"},
 }
+#: Hooks that act on two coils at once, once in each direction: hook to the plan's name of one pair.
+TURNING: Mapping[str, str] = {"pairs": "pair", "contacts": "contact"}
 #: Hooks that are called before the step is made: continuous states are taken at its middle.
 _BEFORE_STEP = ("resistance", "heat")
 
@@ -188,8 +191,8 @@ def _function(term: CandidateTerm, hook: str) -> str:
     head = f"static void {hook}_{term.identifier}("
     if hook in ("channel", "sensor"):
         return _sensor_function(term, hook, head)
-    if hook == "pairs":
-        return _pairs_function(term, head)
+    if hook in TURNING:
+        return _pairs_function(term, hook, head)
     before, after = _locals(term, hook, used)
     state_before, state_after = _state_locals(term, hook, used)
     open_sums, close_sums, loop = "", "", "COIL_LOOP"
@@ -212,15 +215,19 @@ def _function(term: CandidateTerm, hook: str) -> str:
     )
 
 
-def _pairs_function(term: CandidateTerm, head: str) -> str:
-    used = words(term.lines["pairs"])
-    declared = [c for x in "ab" for c in _parameters(term, used, "s->width", x, f"_{x}")]
-    body = "\n        ".join([*declared, *term.lines["pairs"].strip().splitlines()])
+def _pairs_function(term: CandidateTerm, hook: str, head: str) -> str:
+    used = words(term.lines[hook])
+    if hook == "pairs":
+        declared = [c for x in "ab" for c in _parameters(term, used, "s->width", x, f"_{x}")]
+    else:
+        declared = _parameters(term, used, "s->plan->contacts", "n")
+    body = "\n        ".join([*declared, *term.lines[hook].strip().splitlines()])
+    one = TURNING[hook]
     return f"""{head}Step *s, const double *restrict p, int turn)
 {{
-    for (int64_t k = 0; k < s->plan->pairs; k++) {{
-        const int64_t n = turn == BACKWARDS ? s->plan->pairs - 1 - k : k;
-        const int64_t a = s->plan->pair_a[n], b = s->plan->pair_b[n];
+    for (int64_t k = 0; k < s->plan->{hook}; k++) {{
+        const int64_t n = turn == BACKWARDS ? s->plan->{hook} - 1 - k : k;
+        const int64_t a = s->plan->{one}_a[n], b = s->plan->{one}_b[n];
         double exchange = 0.0; /* [W/K] */
         {body}
         exchange_heat(s, a, b, exchange, turn);
@@ -266,7 +273,7 @@ def _calls(terms: Sequence[CandidateTerm]) -> str:
         if hook == "gather":
             continue  # called together with `shared`
         is_sensor = HOOK_AXES[hook] == "channel"
-        argument = "sensor" if is_sensor else "s, turn" if hook == "pairs" else "s"
+        argument = "sensor" if is_sensor else "s, turn" if hook in TURNING else "s"
         calls = [_call(number, term, hook, is_sensor) for number, term in _in_order(terms, hook)]
         out.append(f"#define HOOK_{hook}({argument}) do {{ {' '.join(calls)} }} while (0)")
     starts = [f"if (ON({n})) start_{t.identifier}(s, VALUES({n}));" for n, t in enumerate(terms) if t.states]
@@ -275,7 +282,7 @@ def _calls(terms: Sequence[CandidateTerm]) -> str:
         f"(plan)->term_offset[{n}] >= 0" for n, t in enumerate(terms) if "I" in words(t.lines.get("string", ""))
     ]
     out.append(f"#define HAS_CURRENT_FEEDBACK(plan) ({' || '.join(feedback) or '0'})")
-    paired = [f"(plan)->term_offset[{n}] >= 0" for n, t in enumerate(terms) if "pairs" in t.lines]
+    paired = [f"(plan)->term_offset[{n}] >= 0" for n, t in enumerate(terms) if TURNING.keys() & t.lines.keys()]
     out.append(f"#define HAS_PAIRS(plan) ({' || '.join(paired) or '0'})")
     sensors = [f"(plan)->term_offset[{n}] >= 0" for n, t in enumerate(terms) if t.axis == "channel"]
     out.append(f"#define HAS_SENSOR(plan) ({' || '.join(sensors) or '0'})")
@@ -299,7 +306,7 @@ def _call(number: int, term: CandidateTerm, hook: str, is_sensor: bool) -> str:
         return (
             f"if (ON({number})) {hook}_{term.identifier}(sensor, sensor->set + plan->term_offset[{number}], CHANNELS);"
         )
-    if hook == "pairs":
+    if hook in TURNING:
         return f"if (ON({number})) {hook}_{term.identifier}(s, VALUES({number}), turn);"
     if hook == "shared":
         return (

@@ -121,6 +121,7 @@ static void balance_heat(Step *s, int64_t k)
     s->felt = s->middle;
     HOOK_heat(s);
     HOOK_pairs(s, FORWARDS);
+    HOOK_contacts(s, FORWARDS);
     COILS_LOOP
     {
         const double net = power[i] + heat[i] - conductance[i] * (temperature[i] - ambient[i]);
@@ -133,8 +134,10 @@ static void balance_heat(Step *s, int64_t k)
         energy[i] += power[i] * dt;
     }
     if (HAS_PAIRS(s->plan)) {
+        HOOK_contacts(s, BACKWARDS);
         HOOK_pairs(s, BACKWARDS);
         HOOK_pairs(s, AT_END);
+        HOOK_contacts(s, AT_END);
         COILS_LOOP rate[i] = (temperature[i] - s->before[i]) / dt;
     }
 }
