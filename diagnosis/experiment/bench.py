@@ -11,6 +11,7 @@ import numpy as np
 from cosim.unit.protocol import Array
 from diagnosis.experiment.separation import Bordered, Separation, distance, root, separation
 from diagnosis.models.coil_network.kernel.inputs import Drive
+from diagnosis.models.coil_network.kernel.network import CoilNetworkError
 from diagnosis.models.coil_network.kernel.parameters import CoilNetworkParameters
 from diagnosis.models.coil_network.kernel.steps import USUAL
 from diagnosis.models.coil_network.model import CoilNetworkModel
@@ -131,11 +132,18 @@ class Bench:
         return self._with([self._run(0, conditions)])
 
     def temperatures(self, conditions: Conditions, count: int = 200) -> Array:
-        """Of every coil by the most probable explanation [K], shape (count, coils); at equal distances of time."""
+        """Of every coil by the most probable explanation [K], shape (count, coils); at equal distances of time.
+
+        Infinite where the explanation runs away: what was fitted to some temperatures need not hold at higher ones.
+        """
         run = self._run(0, conditions)
         times = np.linspace(run.inputs.time[0], run.inputs.time[-1], count)
         parameters = self._with([run]).network_parameters(self._points[0], 0)
-        return np.asarray(self.model.network.simulate(parameters, run.inputs, {"temperature": times})["temperature"])
+        try:
+            found = self.model.network.simulate(parameters, run.inputs, {"temperature": times})
+        except CoilNetworkError:
+            return np.full((count, self.model.coils.coils), np.inf)
+        return np.asarray(found["temperature"])
 
     def contrasts(self, experiment: CoilNetworkModel, log_odds: Sequence[float]) -> list[Contrast]:
         """What an experiment does to the first explanation and each other one.

@@ -223,6 +223,8 @@ def _tried(driven: Rig, bench: Bench, question: Open) -> list[_Tried]:
     """One programme of each family; of the best, as long as none decides, with half the load, longer, and repeated."""
     planner = Planner(driven, bench)
     found: list[_Tried] = []
+    if not np.isfinite(planner.hottest):
+        return found  # what the coils stood so far is not known
     every = list(shapes(driven.duration, driven.columns, planner.levels()))
     for shape in counted(every, "programmes simulated"):
         found += _one(planner, shape, None, question)

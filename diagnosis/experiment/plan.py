@@ -91,7 +91,8 @@ class Planner:
             hottest = float(self.bench.temperatures(conditions).max())
             if hottest <= self.hottest + HOTTER:
                 return made, conditions
-            less = (self.hottest - self.ambient) / (hottest - self.ambient)
+            # how much too hot one is that runs away is not known
+            less = (self.hottest - self.ambient) / (hottest - self.ambient) if np.isfinite(hottest) else 0.5
             shape = replace(shape, heat=shape.heat * less)
         return None
 
@@ -107,6 +108,8 @@ class Planner:
         soak = Shape("", np.array([0.0]), np.ones((1, self.rig.columns)), 3.0 * self.rig.duration)
         made = courses(self.rig, soak)
         reached = float(self.bench.temperatures(Conditions(drive(self.rig, made, self._like), soak.duration)).max())
+        if not np.isfinite(reached):
+            return Levels()
         span = reached - self.ambient
         # From the cold only the heating branch matters; back from within it, the middle of the cooling branch.
         below = (middle["heating"] - _BRANCH * width["heating"] - self.ambient) / span

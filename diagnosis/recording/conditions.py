@@ -42,7 +42,8 @@ def scenario_of(base: Scenario, recording: Recording) -> Scenario:
     macro = nanoseconds(base.time.macro_step) * 1e-9
     for recorded in recording.inputs:
         _put_points(merged, recorded, macro, recording)
-    if "stop" not in recording.overrides.get("time", {}):
+    is_stop_stated = "stop" in recording.overrides.get("time", {})
+    if not is_stop_stated:
         output = nanoseconds(base.time.output_step) * 1e-9
         begin = base.time.start.to("s")
         steps = max(1, math.ceil((recording.end - begin) / output - 1e-9))
@@ -51,7 +52,10 @@ def scenario_of(base: Scenario, recording: Recording) -> Scenario:
         return _with_outputs_as_read(scenario_of_data(merged, base.path), recording)
     except InputError as error:
         problem = f"{error.problem} (with the overrides of {recording.path})"
-        raise InputError(error.source, error.key, problem, error.remedy) from error
+        remedy = error.remedy
+        if is_stop_stated and error.key == "time":
+            remedy = "leave time.stop out of the recording's overrides: the run then ends with its last reading"
+        raise InputError(error.source, error.key, problem, remedy) from error
 
 
 def _with_outputs_as_read(scenario: Scenario, recording: Recording) -> Scenario:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -137,3 +139,16 @@ def test_an_input_in_a_wrong_unit_is_named_by_its_key(tmp_path, unit, text):
         scenario_of(load_scenario("tclab"), load_recording(path))
     assert caught.value.key == "inputs.drive.power_1.unit"
     assert text in str(caught.value)
+
+
+def test_an_end_between_two_outputs_says_to_leave_it_out(tmp_path):
+    made = load_recording(folder(tmp_path))
+    base = load_scenario("tclab")
+    step = base.time.output_step.to("s")
+    off = replace(made, overrides={"time": {"stop": f"{10.5 * step:g} s"}})
+    with pytest.raises(InputError) as caught:
+        scenario_of(base, off)
+    assert "must be a multiple of output_step" in caught.value.problem
+    assert "leave time.stop out" in caught.value.remedy
+    ended = scenario_of(base, replace(made, overrides={}, end=10.5 * step))  # as it is told to do
+    assert ended.time.stop.to("s") == pytest.approx(base.time.start.to("s") + 11.0 * step)

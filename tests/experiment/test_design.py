@@ -15,6 +15,7 @@ from diagnosis.experiment.bench import Belief, Bench, Conditions
 from diagnosis.experiment.design import Open, SoFar, design, open_explanations
 from diagnosis.experiment.write import write_experiment
 from diagnosis.judge.rivals import probabilities
+from diagnosis.models.coil_network.kernel.inputs import Programme
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.recording.recording import Recording
 from diagnosis.search.fit import Fit
@@ -209,3 +210,24 @@ def test_what_missed_the_margin_by_little_is_open_against_the_model_as_it_is(tmp
     assert [e.terms for e in found.explanations] == [(), tuple(fits[0].point.terms)]
     assert found.chances == pytest.approx([0.5, 0.5])
     assert open_explanations(outcome(fits[:1], base, None, gain + 20.0)) is None
+
+
+def test_an_explanation_that_runs_away_when_hotter_is_no_end_of_the_diagnosis(tmp_path: Path) -> None:
+    """A loss that falls with the temperature fits the recording; under power for longer its coils melt."""
+    made = scenario(tmp_path)
+    random = np.random.default_rng(0)
+    first = measured(made, RADIATION[0], off(made, random), random)
+    model, fits = rivals(made, [first], RADIATION)
+    loss = next(t for t in fits[1].point.terms)
+    runaway = replace(fits[1], point=replace(fits[1].point, terms={loss: (-0.009,)}), cost=fits[0].cost - 1.0)
+    bench = Bench(model, [first], [Belief.of(runaway, len(model.parameters))])
+    drive = model.runs[0].translation.drive
+    assert np.isfinite(bench.temperatures(Conditions(drive, 60.0))).all()
+    held = replace(drive, voltage=Programme.constant(np.array([1.7])))
+    assert np.isinf(bench.temperatures(Conditions(held, 180.0))).all()
+    planned = design(made, SoFar(model, [first]), as_open([runaway, fits[0]]))
+    assert planned is not None
+    assert np.isfinite(planned.log_bayes_factor)
+    # Powered for longer than in the recordings every coil would run away: no such programme is proposed.
+    for made_course in planned.courses:
+        assert np.isfinite(made_course.values).all()
