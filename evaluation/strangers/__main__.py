@@ -37,6 +37,7 @@ from evaluation.strangers import (
     tenth_set,
     third_set,
     thirteenth_set,
+    thirtieth_set,
     twelfth_set,
     twentieth_set,
     twenty_eighth_set,
@@ -82,6 +83,7 @@ SETS = {
     "twenty_seventh": twenty_seventh_set.CASES,
     "twenty_eighth": twenty_eighth_set.CASES,
     "twenty_ninth": twenty_ninth_set.CASES,
+    "thirtieth": thirtieth_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
