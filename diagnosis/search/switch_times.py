@@ -154,6 +154,43 @@ def earlier(recorded: Input, shares: Array | float) -> Input:
     return replace(recorded, times=times)
 
 
+def with_earlier_inputs(scenarios: Sequence[Scenario], recordings: Sequence[Recording]) -> list[list[Recording]]:
+    """The recordings with one input that was sampled half a row earlier wherever it was, for each such input."""
+    sampled = {
+        (number, i.component, i.output)
+        for number, (scenario, r) in enumerate(zip(scenarios, recordings))
+        for i in r.inputs
+        if row_length(scenario, i) > 0.0
+    }
+    found = []
+    for name in sorted({one[1:] for one in sampled}):
+        moved = []
+        for number, r in enumerate(recordings):
+            is_own = (number, *name) in sampled
+            inputs = [earlier(i, HALF) if is_own and (i.component, i.output) == name else i for i in r.inputs]
+            moved.append(replace(r, inputs=tuple(inputs)))
+        found.append(moved)
+    return found
+
+
+def shifts_by_recording(changes: Sequence[Array], sizes: Sequence[int]) -> Array:
+    """Changes of all residuals, one row for each recording that moves; shape (rows, residuals).
+
+    Args:
+        changes: Of the residuals, one for each input, in order of the recordings; not finite where runs have none.
+        sizes: Residuals of each recording.
+    """
+    ends = np.cumsum(sizes)
+    found = []
+    for change in changes:
+        for begin, end in zip((0, *ends), ends):
+            row = np.zeros(len(change))
+            row[begin:end] = change[begin:end]
+            if np.isfinite(row).all() and np.any(row):
+                found.append(row)
+    return np.array(found) if found else np.zeros((0, int(ends[-1])))
+
+
 def _output(scenario: Scenario, recorded: Input) -> ProgrammeOutput:
     component = scenario.components[recorded.component]
     assert isinstance(component, ProgrammeComponent)

@@ -35,7 +35,7 @@ from diagnosis.recording.series import Series, place_of
 from diagnosis.search.cosim_model import CompiledModel, Free
 from diagnosis.search.cosim_run import Changes, predicted
 from diagnosis.search.problem import Point, Term
-from diagnosis.search.switch_times import HALF, earlier, row_length
+from diagnosis.search.switch_times import shifts_by_recording, with_earlier_inputs
 from diagnosis.search.unit_law import UnitLaw
 
 #: Steps of the integration in a macro-step: doubled until no reading moves by more than this share of its noise.
@@ -217,43 +217,18 @@ class SystemModel(CompiledModel):
 
     def row_shifts(self, point: Point) -> Array:
         """See `diagnosis.models.protocol.DiagnosisModel`."""
-        count, ends = self._steps_of(point), np.cumsum(self._sizes)
-        found: list[Array] = []
+        count = self._steps_of(point)
         before = self._residuals_by(point, count) if self._with_earlier_inputs else np.zeros(0)
-        for moved in self._with_earlier_inputs:
-            with np.errstate(invalid="ignore", over="ignore"):  # runs that stop, or run away, have none
-                change = moved._residuals_by(point, count) - before
-            for begin, end in zip((0, *ends), ends):
-                row = np.zeros(len(change))
-                row[begin:end] = change[begin:end]
-                if np.isfinite(row).all() and np.any(row):
-                    found.append(row)
-        return np.array(found) if found else np.zeros((0, len(self.layout.time)))
+        with np.errstate(invalid="ignore", over="ignore"):  # runs that stop, or run away, have none
+            changes = [moved._residuals_by(point, count) - before for moved in self._with_earlier_inputs]
+        return shifts_by_recording(changes, self._sizes)
 
     @cached_property
     def _with_earlier_inputs(self) -> list[SystemModel]:
         """The same with one input that was sampled half a row earlier in each recording, for each such input."""
         scenario, recordings, free, found = self._given
-        sampled = {
-            (number, i.component, i.output)
-            for number, r in enumerate(recordings)
-            for i in r.inputs
-            if row_length(self.scenarios[number], i) > 0.0
-        }
-        models = []
-        for name in sorted({one[1:] for one in sampled}):
-            moved = [
-                replace(
-                    r,
-                    inputs=tuple(
-                        earlier(i, HALF) if (i.component, i.output) == name and (number, *name) in sampled else i
-                        for i in r.inputs
-                    ),
-                )
-                for number, r in enumerate(recordings)
-            ]
-            models.append(SystemModel(scenario, moved, free, found, self._batches))
-        return models
+        moved = with_earlier_inputs(self.scenarios, recordings)
+        return [SystemModel(scenario, own, free, found, self._batches) for own in moved]
 
     @cached_property
     def _with_shorter_steps(self) -> SystemModel | None:
