@@ -22,9 +22,8 @@ from diagnosis.check.ends import with_ends
 from diagnosis.check.input_rows import with_input_rows, with_instants
 from diagnosis.check.odd_one_out import ALL_CHANNELS
 from diagnosis.clocks import clocks_once_recalibrated
-from diagnosis.experiment.design import next_experiment
 from diagnosis.faults.model import with_faults
-from diagnosis.isolability.isolability import isolability
+from diagnosis.further import Further, further
 from diagnosis.judge.acceptance import Accepted, accept
 from diagnosis.judge.adequacy import adequacy, moved_day, with_day, with_solving
 from diagnosis.judge.diagnosis import ChannelFit, Diagnosis, Doubt, Searched, Verdict
@@ -60,7 +59,7 @@ from diagnosis.judge.unfitted import (
 )
 from diagnosis.judge.verdict import evident, verdict, why_open
 from diagnosis.judge.within_rows import within_rows
-from diagnosis.locate.locate import Located, locate
+from diagnosis.locate.locate import Located
 from diagnosis.model_error import search_with_model_error
 from diagnosis.models.build import models_of, uses_batches, with_switch_times
 from diagnosis.models.cosimulation.unit_laws import identifiers
@@ -227,20 +226,15 @@ def diagnose(
     found = evident(found, right, outcome.margin)
     word = verdict(outcome, found, right, tried, recalibration(model, outcome.base, titles), doubts)
     reasons = why_open(outcome, found, right, tried, doubts, [titled(p, titles) for p in model.parameters])
-    told_apart, located, experiment = Isolability(), Located(()), None
-    with suppress(TimeIsOver), may_be_left():
-        if not options.is_brief:
-            on_progress("finding out what these channels can tell apart")
-            told_apart = isolability(model, outcome.base, [t for t in model.terms() if not t.is_completing])
-            on_progress("driving each unit alone")
-            located = locate(model, outcome.base, [r.title for r in training], settings.seed)
-            on_progress("designing the next experiment")
-            experiment = next_experiment(scenario, model, training, outcome, accepted, options.limits)
+    more = Further(Isolability(), Located(()), None)
+    if not options.is_brief:
+        more = further(scenario, model, training, (outcome, accepted), settings.seed, options.limits, on_progress)
+    of_end = (*more.notes, *((_STOPPED,) if was_left() else ()))
     first, left = (model.plain.residuals([p])[0] for p in (outcome.base.point, accepted.explanation.fit.point))
     diagnosis = Diagnosis(
         verdict=word,
         statement=headline(word, found, right, reasons, doubts, units),
-        notes=(*notes(word, found, right, reasons, doubts, units), *((_STOPPED,) if was_left() else ())),
+        notes=(*notes(word, found, right, reasons, doubts, units), *of_end),
         findings=found,
         fit=tuple(fits),
         margin=outcome.margin,
@@ -249,19 +243,19 @@ def diagnose(
         structure_before=structure(first, model.layout, model.groups()).z,
         structure_after=structure(left, model.layout, model.groups()).z,
         recalibration=recalibration(model, accepted.explanation.fit, titles),
-        isolability=told_apart,
+        isolability=more.told_apart,
         amended_model=None,
         seconds=clock.perf_counter() - begin,
         simulations=model.simulations,
         seed=settings.seed,
-        locations=located.locations,
-        waveforms=located.waveforms,
-        proposals=located.proposals,
+        locations=more.located.locations,
+        waveforms=more.located.waveforms,
+        proposals=more.located.proposals,
         scenario=str(scenario.path or scenario.title),
         recordings=used(training, held_out),
         spread=spread_over_recordings(fits),
         left=remainders(left, model.layout, model.groups(), [s.channel for run in model.runs for s in run.series]),
-        next_experiment=experiment,
+        next_experiment=more.experiment,
         adequacy=right,
         searched=tried,
         doubts=doubts,

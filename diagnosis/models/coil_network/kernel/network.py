@@ -25,7 +25,7 @@ def _pool(process: int, threads: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(threads, thread_name_prefix=f"network-{process}")
 
 
-class CoilNetworkError(Exception):
+class CoilNetworkError(ArithmeticError):
     """A simulation did not stay finite, or there was no memory for it.
 
     Args:
