@@ -14,6 +14,7 @@ from functools import partial
 
 from diagnosis.check.beside import Compared
 from diagnosis.check.changed_rig import changed_rig
+from diagnosis.check.exchanged_inputs import exchanged_inputs
 from diagnosis.check.late_input import late_input
 from diagnosis.check.odd_one_out import ALL_CHANNELS, MET, SAME, TIMES, as_explained, comparable, left, left_beside
 from diagnosis.check.other_course import other_course
@@ -80,7 +81,7 @@ def _of_rig(refitted: Refitted, number: int) -> Doubt | None:
     if not every:
         return None
     one, others = _parted(every, number)
-    of_all = (unit_of_input, size_of_input, partial(other_course, least=0.0))
+    of_all = (exchanged_inputs, unit_of_input, size_of_input, partial(other_course, least=0.0))
     told = late_input(one) or next((d for ask in of_all if (d := ask(one, others))), None)
     own = other_number(one, others)
     if told is None:

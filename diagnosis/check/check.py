@@ -16,6 +16,7 @@ from diagnosis.check.clock_doubts import shift_doubts
 from diagnosis.check.clock_of_one import clocks_of_one
 from diagnosis.check.copied import copied_doubts
 from diagnosis.check.edges import edge_doubts
+from diagnosis.check.exchanged_inputs import exchanged_inputs
 from diagnosis.check.gain_of_one import gain_of_one
 from diagnosis.check.input_doubts import input_doubts
 from diagnosis.check.late_input import late_input
@@ -138,7 +139,7 @@ def _odd(doubt: Doubt, every: Sequence[Compared], is_told: bool, gain_at: Callab
     sensor = sensor_of_one(one, others)
     if sensor is not None:  # a number or an input that explains the same is no better known
         return sensor
-    asked = (unit_of_input, size_of_input, other_course, other_number, changed_rig)
+    asked = (exchanged_inputs, unit_of_input, size_of_input, other_course, other_number, changed_rig)
     return next((d for ask in asked if (d := ask(one, others)) is not None), gain or doubt)
 
 

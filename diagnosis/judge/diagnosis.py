@@ -193,8 +193,9 @@ class Doubt:
     Args:
         recording: Title of the recording.
         subject: Channel, input or key of recording.yaml concerned.
-        kind: `programme`, `other run`, `swapped`, `unit`, `sign`, `dead time`, `clock`, `noise`, `sensor`, `input`,
-            `start`, `scale`, `still`, `range`, `odd one out`, `number`, `no answer`.
+        kind: `programme`, `other run`, `swapped` (channels), `exchanged` (inputs), `unit`, `sign`, `dead time`,
+            `clock`, `noise`, `sensor`, `input`, `start`, `scale`, `still`, `range`, `odd one out`, `number`,
+            `no answer`.
         statement: What was seen, with numbers, in plain words.
         remedy: What to look at or to change.
         is_serious: Whether the recording and the scenario are not of the same experiment, if it is true.

@@ -22,6 +22,7 @@ _OF_ANOTHER = "The recording and the scenario are not of the same experiment"
 #: Kinds of serious doubts that say less than that the experiment is another one, with what they say.
 _LESS = (
     ({"swapped"}, "Channels are exchanged"),
+    ({"exchanged"}, "Inputs are exchanged"),
     ({"unit", "sign"}, "A column is not what its recording says"),
     ({"turned"}, "Sign, start or clock of a recording are not what it says"),
     ({"no answer"}, "Readings show no answer to the inputs of the scenario"),

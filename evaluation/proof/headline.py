@@ -29,7 +29,7 @@ _DOUBTS: Mapping[str, frozenset[str]] = {
     "input_offset": frozenset({"input", "programme", "scale"}),
     "unequal_rooms": frozenset({"start", "input", "programme"}),
     "wrong_start": frozenset({"start", "programme", "turned"}),
-    "other_supply": frozenset({"swapped", "programme", "other run", "input"}),
+    "other_supply": frozenset({"swapped", "exchanged", "programme", "other run", "input"}),
     "delay_line": frozenset({"dead time", "clock", "programme", "input"}),
     "swapped_columns": frozenset({"swapped", "unit", "scale", "sign", "sensor"}),
     "swapped_coils": frozenset({"swapped", "programme"}),
