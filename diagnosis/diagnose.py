@@ -292,6 +292,9 @@ def _by_other_ways(
 ) -> tuple[Outcome, DiagnosisModel, Accepted]:
     """What was found, or what another way found that predicts better; see `diagnosis.ways`.
 
+    Not what predicts worse than the search's own explanation with what was not accepted of it: a fault of a whole
+    recording of the training is no law that others show, and yet what keeps laws from taking its place.
+
     Args:
         models: Of the training recordings as it was searched, and the one that judges.
         found: Outcome, the model that it belongs to, and what of it is accepted.
@@ -300,11 +303,12 @@ def _by_other_ways(
         settings: Of the search.
         on_progress: Told what is being done.
     """
-    (given, judge), (training, held_out) = models, recordings
+    (given, judge), (training, held_out), suggested = models, recordings, found[2].suggested
     with suppress(TimeIsOver), may_be_left():
         for other, own in other_ways(given, found[0], settings, on_progress):
             again, _ = _accepted(own, judge, other, training, held_out, on_progress)
-            if again.explanation.terms and is_better(found[2].after, again.after, readings):
+            is_stopgap = is_better(again.after, suggested, readings)
+            if again.explanation.terms and is_better(found[2].after, again.after, readings) and not is_stopgap:
                 found = other, own, again
             if not again.agreement.is_rejected and other.left.is_noise:
                 break

@@ -72,6 +72,7 @@ class Accepted:
         before: What the scenario as it is leaves of the unfitted readings.
         recalibrated: What the recalibrated model leaves.
         after: What the accepted explanation leaves.
+        suggested: What the explanation with everything that is suggested leaves.
         recalibration: Gain of recalibrating; None where nothing was compared.
         agreement: Of the accepted explanation with the unfitted readings.
         training: Of the accepted explanation with the training readings.
@@ -101,6 +102,7 @@ class Accepted:
     before: Predicted
     recalibrated: Predicted
     after: Predicted
+    suggested: Predicted
     recalibration: Gain
     agreement: Agreement
     training: Agreement
@@ -239,6 +241,7 @@ def accept(
         before,
         recalibrated,
         after,
+        judge.predict(headline.fit.point) if headline.terms else recalibrated,
         gain(before, recalibrated, readings),
         found,
         agreement(fitted.residuals, training.readings),

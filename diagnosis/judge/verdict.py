@@ -9,7 +9,16 @@ import numpy as np
 
 from diagnosis.judge.agreement import times_louder, times_white
 from diagnosis.judge.diagnosis import MOVED, Adequacy, Doubt, Finding, Moved, Searched, Standing, Verdict
-from diagnosis.judge.doubts import MEASURED, ODD, accuses, far_starts, faults, is_physics, late_responses
+from diagnosis.judge.doubts import (
+    MEASURED,
+    ODD,
+    accuses,
+    far_starts,
+    faults,
+    is_of_an_interval,
+    is_physics,
+    late_responses,
+)
 from diagnosis.judge.headline import noise_of
 from diagnosis.report.display import listed, parameter_words
 from diagnosis.search.search import Outcome
@@ -24,6 +33,9 @@ STRAINED = 4.0
 NAMED = 6
 #: Why nothing is concluded from what is suggested.
 _UNCONFIRMED = "what the training recordings suggest is not confirmed by readings that it was not fitted to"
+_OF_ONE_RECORDING = (
+    "what the training recordings suggest is a fault of one recording, and its other readings do not make it certain"
+)
 _COARSE = "time.macro_step is too long to tell what the training recordings suggest from an error of solving"
 
 _ROWS = (
@@ -146,7 +158,9 @@ def _unaccepted(suggested: Sequence[Finding]) -> str:
     """Why nothing of what is suggested is accepted."""
     if all(f.is_coarse for f in suggested):
         return _COARSE
-    return _ROWS if all(f.is_within_rows for f in suggested) else _UNCONFIRMED
+    if all(f.is_within_rows for f in suggested):
+        return _ROWS
+    return _OF_ONE_RECORDING if all(is_of_an_interval(f) for f in suggested) else _UNCONFIRMED
 
 
 def _apart(doubt: Doubt) -> str:

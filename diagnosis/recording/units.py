@@ -70,8 +70,9 @@ _MEANT = {
 PURE = "1"
 #: Readings of which only the maker of a converter or a controller knows what they stand for.
 _RAW = ("", "1", "%", "percent", "count", "counts", "bit", "bits", "steps", "ticks", "dB")
-#: A prefix of 1e6 or more before these is a slip of the shift key: no rig has readings of megavolts or megametres.
-_NEVER_MEGA = {"m": "mm", "s": "ms", "A": "mA", "V": "mV"}
+#: A prefix of 1e6 or more before these is a slip of the shift key: no rig has readings of megametres or megaseconds.
+#: Cavities and smelters have megavolts and megaamperes; where they are a slip, the size of the readings shows it.
+_NEVER_MEGA = {"m": "mm", "s": "ms"}
 
 
 def si_unit(unit: str) -> str:
@@ -139,7 +140,7 @@ def conversion_of_reading(unit: str, target: str) -> tuple[float, float]:
 
     Raises:
         WrongUnit: It is unknown, measures something else, or is read as something that nobody means here: a pixel, a
-            difference of temperatures, a logarithm, a pure number for an angle, a megavolt.
+            difference of temperatures, a logarithm, a pure number for an angle, a megametre.
     """
     name = _check(unit, target)
     if name.startswith("delta_"):

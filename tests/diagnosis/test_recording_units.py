@@ -33,8 +33,6 @@ TRAPS = [
     ("Ms", "s", "megasecond", "write `ms`"),
     ("Mm", "m", "megameter", "write `mm`"),
     ("c", "m", "speed of light", "converts to m"),
-    ("MA", "A", "megaampere", "write `mA`"),
-    ("MV", "V", "megavolt", "write `mV`"),
     ("Ohm", "ohm", "not a unit", "write `ohm`"),
     ("g", "N", "gram", "write `gf`"),
     ("dBm", "W", "logarithmic", "convert the column to W"),
