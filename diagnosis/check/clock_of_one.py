@@ -136,6 +136,9 @@ def _by_share(one: Compared, others: Sequence[Compared], simulated: str, counted
         usual = [_left(b, counted) for b in same]
         if len(usual) < OTHERS or max(usual) > MET or left < max(TIMES * max(usual), _noise(beside)):
             continue
+        # what the scenario lacks of the rig shows in other channels more than a clock does in this one
+        if _deviations(beside, counted) < _elsewhere(name, others, counted):
+            continue
         # other channels of the rig that are met say that it is not the rig
         is_alone = any(n != name and v <= MET for n, v in own.items())
         ranges = [float(np.ptp(b.simulated_there)) / float(np.ptp(beside.simulated_there)) for b in same]
@@ -342,6 +345,18 @@ def _left_of(beside: Beside, rest: Array, counted: float) -> float:
     """Share of a channel's variance that is left, of what some description of its readings leaves."""
     squares = np.sort(rest**2)[: int(np.ceil(counted * len(rest)))]
     return max(float(np.mean(squares)) - beside.floor**2, 0.0) / float(np.var(beside.measured))
+
+
+def _deviations(beside: Beside, counted: float) -> float:
+    """Root mean square of what the scenario leaves of a channel, in deviations of its noise."""
+    squares = np.sort(_rest(beside, None) ** 2)[: int(np.ceil(counted * len(beside.times)))]
+    return float(np.sqrt(np.mean(squares))) / beside.floor if beside.floor > 0.0 else float("inf")
+
+
+def _elsewhere(name: str, others: Sequence[Compared], counted: float) -> float:
+    """Most that the scenario leaves of any other channel in the other recordings, in deviations of its noise."""
+    channels = (b for o in others for n, b in o.channels.items() if n != name and _is_told(b) and b.floor > 0.0)
+    return max((_deviations(b, counted) for b in channels), default=0.0)
 
 
 def _noise(beside: Beside) -> float:

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Verdict
+from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Standing, Verdict
 from diagnosis.judge.doubts import accuses, faults, is_explained, is_physics, of_another_experiment
 from diagnosis.report.display import clean, listed, moved, number, user_unit
 from diagnosis.report.user_units import IN_SI, Units
@@ -29,6 +29,11 @@ _LESS = (
     ({"start"}, "The first readings of a recording are not where it is said to begin"),
     ({"clock", "dead time"}, "Times of the recording are not those of the scenario"),
     ({"clock", "dead time", "late"}, "Readings come later than the scenario says"),
+)
+#: Said of several laws of which one at least has no name: they fit what is left out, in parts that need not be its own.
+_TOGETHER = (
+    "; laws without a name describe together what is missing, which need not be as many effects, nor act at these "
+    "places"
 )
 #: Share of what stays from which instants of inputs within a row are named as a possible reason.
 ROWS = 0.5
@@ -164,8 +169,11 @@ def _named(verdict: Verdict, found: Sequence[Finding], doubts: Sequence[Doubt]) 
     suggested = _listed([f for f in found if not f.is_accepted])
     if any(f.statement in suggested for f in found if f.is_accepted):
         suggested = f"one more law beside these: {suggested}"
+    physics = _listed(of_the_rig if is_told else [])
+    if len(of_the_rig) > 1 and any(f.standing is Standing.UNNAMED for f in of_the_rig):
+        physics = f"{physics}{_TOGETHER}" if physics else ""
     return _Named(
-        _listed(of_the_rig if is_told else []),
+        physics,
         measured,
         _listed([*([] if is_told else of_the_rig), *unsure]),
         suggested,

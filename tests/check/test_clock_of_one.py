@@ -433,3 +433,20 @@ def test_a_clock_within_the_distance_of_readings_is_no_doubt(late: float, tmp_pa
 @pytest.fixture
 def _shipped(shipped_fmus: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COSIM_FMU_PATH", str(shipped_fmus))
+
+
+@pytest.mark.parametrize(("miss", "is_told"), [(3.0, True), (600.0, False)])
+def test_what_other_channels_show_more_of_elsewhere_is_no_clock(miss: float, is_told: bool, tmp_path: Path) -> None:
+    """Another channel that the scenario misses in the other recordings by more than a clock explains here."""
+    oscillator(tmp_path)
+    recordings = oscillator_recordings(tmp_path, lambda x, v: 0.0, SIZES)
+    _own_table(recordings[1], 0.02, 0.0)
+    every = _compared(tmp_path, recordings)
+    for number, one in enumerate(every):
+        beside = one.channels["rig.position"]
+        times = beside.channel.times
+        readings = beside.at(times) + miss * beside.floor * np.sin(7.0 * times) * (number != 1)
+        other = replace(beside, channel=replace(beside.channel, values=readings))
+        every[number] = replace(one, channels={**one.channels, "rig.other": other})
+    told = [(d.recording, d.subject) for d in clocks_of_one(every)]
+    assert told == ([("run_2", "rig.position")] if is_told else [])

@@ -1,4 +1,4 @@
-"""Megavolts are read as such: of a cavity they are right, and where they are a slip for millivolts the size shows it."""
+"""Megavolts are read as such: a cavity has them; where they are a slip for millivolts, the readings show it."""
 
 from __future__ import annotations
 

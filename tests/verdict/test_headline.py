@@ -205,3 +205,14 @@ def test_a_model_that_agrees_once_the_start_of_a_day_is_estimated_says_so() -> N
         "The model as it is agrees with the held-out recordings within the stated noise of the sensors."
     )
     assert with_day(met, [rows[1]]).by_day == 0.0
+
+
+def test_laws_without_a_name_are_not_counted_as_effects() -> None:
+    """Three of them may bend to one law that the library has not: what is left out need not be three things."""
+    other = replace(CONTACT, standing=Standing.UNNAMED, is_named=False, statement="an effect without a name, string[1]")
+    ends = "laws without a name describe together what is missing, which need not be as many effects"
+    assert ends not in headline(Verdict.MISSING_PHYSICS, [CONTACT], ADEQUACY)
+    assert ends not in headline(Verdict.UNNAMED_PHYSICS, [other], ADEQUACY)
+    assert ends in headline(Verdict.UNNAMED_PHYSICS, [other, other], ADEQUACY)
+    assert ends in headline(Verdict.MISSING_PHYSICS, [CONTACT, other], ADEQUACY)
+    assert ends not in headline(Verdict.MISSING_PHYSICS, [CONTACT, CONTACT], ADEQUACY)
