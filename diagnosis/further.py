@@ -82,14 +82,13 @@ def further(
     with suppress(TimeIsOver), may_be_left():
         on_progress("finding out what these channels can tell apart")
         terms = [t for t in model.terms() if not t.is_completing]
-        apart, nowhere = known.told_apart, known.located
         known.told_apart = known._made(
-            "What these channels can tell apart", lambda: isolability(model, outcome.base, terms), apart
+            "What these channels can tell apart", lambda: isolability(model, outcome.base, terms), known.told_apart
         )
         on_progress("driving each unit alone")
         titles = [r.title for r in recordings]
         known.located = known._made(
-            "Where each unit departs", lambda: locate(model, outcome.base, titles, seed), nowhere
+            "Where each unit departs", lambda: locate(model, outcome.base, titles, seed), known.located
         )
         on_progress("designing the next experiment")
         known.experiment = known._made(
