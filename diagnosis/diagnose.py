@@ -292,8 +292,8 @@ def _by_other_ways(
 ) -> tuple[Outcome, DiagnosisModel, Accepted]:
     """What was found, or what another way found that predicts better; see `diagnosis.ways`.
 
-    Not what predicts worse than the search's own explanation with what was not accepted of it: a fault of a whole
-    recording of the training is no law that others show, and yet what keeps laws from taking its place.
+    Not what predicts worse than the search's own explanation with a fault of one recording that was not accepted: it is
+    no law that others show, and yet what keeps laws from taking its place.
 
     Args:
         models: Of the training recordings as it was searched, and the one that judges.
@@ -303,11 +303,12 @@ def _by_other_ways(
         settings: Of the search.
         on_progress: Told what is being done.
     """
-    (given, judge), (training, held_out), suggested = models, recordings, found[2].suggested
+    (given, judge), (training, held_out), first = models, recordings, found[2]
+    has_fault = any(t.recording is not None for t in first.reasons)
     with suppress(TimeIsOver), may_be_left():
         for other, own in other_ways(given, found[0], settings, on_progress):
             again, _ = _accepted(own, judge, other, training, held_out, on_progress)
-            is_stopgap = is_better(again.after, suggested, readings)
+            is_stopgap = has_fault and is_better(again.after, first.suggested, readings)
             if again.explanation.terms and is_better(found[2].after, again.after, readings) and not is_stopgap:
                 found = other, own, again
             if not again.agreement.is_rejected and other.left.is_noise:
