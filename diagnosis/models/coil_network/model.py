@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
 
 import numpy as np
 
@@ -32,7 +31,6 @@ from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.labels import labels
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Layout, Parameter, Point, Term
-from diagnosis.search.switch_times import shifts_by_recording, with_earlier_inputs
 
 #: Derivatives of residuals by parameters from which another search would take minutes.
 SEARCHED_AGAIN = 200_000
@@ -80,7 +78,6 @@ class CoilNetworkModel(ModelBase):
     ) -> None:
         self._threads = threads
         self.simulations = 0
-        self._given = scenario, recordings, catalogue, timeline
         translations = [translate(scenario_of(scenario, r)) for r in recordings]
         for recording, translation in zip(recordings, translations):
             check_rig(translation.layout, translations[0].layout, recording)
@@ -373,25 +370,6 @@ class CoilNetworkModel(ModelBase):
                 return [None]
             return [self._simulate(run, [p])[0] for p in parameters]
         return list(out)
-
-    def row_shifts(self, point: Point) -> Array:
-        """See `diagnosis.models.protocol.DiagnosisModel`."""
-        before = self.residuals([point])[0] if self._with_earlier_inputs else np.zeros(0)
-        with np.errstate(invalid="ignore"):  # simulations that failed have none
-            changes = [moved.residuals([point])[0] - before for moved in self._with_earlier_inputs]
-        return shifts_by_recording(changes, [run.count for run in self.runs])
-
-    @cached_property
-    def _with_earlier_inputs(self) -> list[CoilNetworkModel]:
-        """The same with one input that was sampled half a row earlier in each recording, for each such input."""
-        scenario, recordings, catalogue, timeline = self._given
-        self.terms(), self.input_terms()
-        models = []
-        for own in with_earlier_inputs([scenario_of(scenario, r) for r in recordings], recordings):
-            moved = CoilNetworkModel(scenario, own, catalogue, self._threads, timeline)
-            moved._places, moved._inputs = self._places, self._inputs  # points are those of this model
-            models.append(moved)
-        return models
 
     def predict(self, point: Point, run: int) -> list[Array]:
         """Simulated values of every channel of a recording at its samples, SI."""
