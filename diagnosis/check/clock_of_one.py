@@ -343,14 +343,18 @@ def _rest(beside: Beside, offsets: Array | None) -> Array:
 
 def _left_of(beside: Beside, rest: Array, counted: float) -> float:
     """Share of a channel's variance that is left, of what some description of its readings leaves."""
-    squares = np.sort(rest**2)[: int(np.ceil(counted * len(rest)))]
-    return max(float(np.mean(squares)) - beside.floor**2, 0.0) / float(np.var(beside.measured))
+    return max(_mean_square(rest, counted) - beside.floor**2, 0.0) / float(np.var(beside.measured))
+
+
+def _mean_square(rest: Array, counted: float) -> float:
+    """Of such a share of the misfits, the least ones first."""
+    return float(np.mean(np.sort(rest**2)[: int(np.ceil(counted * len(rest)))]))
 
 
 def _deviations(beside: Beside, counted: float) -> float:
     """Root mean square of what the scenario leaves of a channel, in deviations of its noise."""
-    squares = np.sort(_rest(beside, None) ** 2)[: int(np.ceil(counted * len(beside.times)))]
-    return float(np.sqrt(np.mean(squares))) / beside.floor if beside.floor > 0.0 else float("inf")
+    size = float(np.sqrt(_mean_square(_rest(beside, None), counted)))
+    return size / beside.floor if beside.floor > 0.0 else float("inf")
 
 
 def _elsewhere(name: str, others: Sequence[Compared], counted: float) -> float:

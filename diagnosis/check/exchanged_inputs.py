@@ -12,9 +12,8 @@ from collections.abc import Sequence
 from contextlib import closing
 from itertools import combinations
 
-from cosim.run import RunStopped
 from diagnosis.check.beside import Compared, Course
-from diagnosis.check.input_runs import InputRuns, given_as, is_quick, of_one_element, parts_of
+from diagnosis.check.input_runs import InputRuns, given_as, is_quick, of_one_element
 from diagnosis.check.odd_one_out import as_explained, comparable, left, left_beside
 from diagnosis.check.unit_of_input import WORSE, explained_with
 from diagnosis.judge.diagnosis import Doubt
@@ -43,11 +42,7 @@ def exchanged_inputs(one: Compared, others: Sequence[Compared]) -> Doubt | None:
         for a, b in combinations(courses, 2):
             if a.is_linear != b.is_linear:
                 continue
-            try:
-                readings = runs.readings(channels, (_with_that_of(a, b), _with_that_of(b, a)))
-            except RunStopped:
-                continue
-            rest = max(left(c, part) for c, part in zip(channels.values(), parts_of(channels, readings)))
+            rest = runs.left_with(channels, (_with_that_of(a, b), _with_that_of(b, a)))
             if rest <= enough:
                 found.append((rest, a, b))
     return _doubt(one, before, *found[0]) if len(found) == 1 else None

@@ -16,7 +16,7 @@ from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared, Course
-from diagnosis.check.odd_one_out import scaled_left
+from diagnosis.check.odd_one_out import left, scaled_left
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
 from diagnosis.models.systems.fmu_layout import NotFast
 from diagnosis.models.systems.run import SystemRuns, is_system, run_quickly
@@ -100,6 +100,14 @@ class InputRuns:
         """Simulated readings of all channels one after another; raises `RunStopped` where it runs away."""
         results = self.results(given)
         return np.concatenate([readings_of(results, b, self.one) for b in channels.values()])
+
+    def left_with(self, channels: dict[str, Beside], given: Sequence[Input]) -> float:
+        """Largest share of a channel's variance that is left with some inputs; infinite where the run goes away."""
+        try:
+            parts = parts_of(channels, self.readings(channels, given))
+        except RunStopped:
+            return math.inf
+        return max(left(b, part) for b, part in zip(channels.values(), parts))
 
     def missed_with(self, channels: dict[str, Beside], course: Course) -> Callable[[Array, Array], float]:
         """What times [s] and values in place of a course leave of the channel that they explain least."""

@@ -15,11 +15,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cosim.run import RunStopped
 from cosim.unit.quantity import conversion
 from diagnosis.check.beside import Beside, Compared, Course
 from diagnosis.check.factors import best_logarithm
-from diagnosis.check.input_runs import InputRuns, given_as, is_quick, of_one_element, parts_of
+from diagnosis.check.input_runs import InputRuns, given_as, is_quick, of_one_element
 from diagnosis.check.odd_one_out import as_explained, comparable, is_within, left, left_beside
 from diagnosis.check.unit_of_input import WORSE, explained_with
 from diagnosis.check.unit_of_one import NEAR, other_units
@@ -92,11 +91,7 @@ def _turned(runs: InputRuns, channels: dict[str, Beside], course: Course) -> _Si
 
 def _left(runs: InputRuns, channels: dict[str, Beside], course: Course, factor: float) -> float:
     """Share of the variance that is left of the channel that an input explains least, so many times as large."""
-    try:
-        readings = runs.readings(channels, (given_as(course, course.times, factor * course.values),))
-    except RunStopped:
-        return math.inf
-    return max(left(b, part) for b, part in zip(channels.values(), parts_of(channels, readings)))
+    return runs.left_with(channels, (given_as(course, course.times, factor * course.values),))
 
 
 def _doubt(one: Compared, found: _Sized, before: float, is_within_others: bool) -> Doubt:

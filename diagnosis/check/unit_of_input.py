@@ -13,10 +13,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from cosim.run import RunStopped
 from cosim.unit.quantity import conversion
 from diagnosis.check.beside import Beside, Compared
-from diagnosis.check.input_runs import InputRuns, is_quick, parts_of
+from diagnosis.check.input_runs import InputRuns, is_quick
 from diagnosis.check.odd_one_out import as_explained, comparable, left, left_beside
 from diagnosis.check.timing import percent
 from diagnosis.check.unit_of_one import other_units
@@ -54,11 +53,7 @@ def _each(runs: InputRuns, channels: dict[str, Beside], given: Input) -> Iterato
     """Every other unit of an input, with the largest share of a channel's variance that is left with it."""
     for unit in other_units(given.unit):
         factor, offset = conversion(unit, given.unit)
-        try:
-            readings = runs.readings(channels, (replace(given, values=factor * given.values + offset),))
-        except RunStopped:
-            continue
-        yield unit, max(left(b, part) for b, part in zip(channels.values(), parts_of(channels, readings)))
+        yield unit, runs.left_with(channels, (replace(given, values=factor * given.values + offset),))
 
 
 def _doubt(one: Compared, given: Input, units: Sequence[str], before: float, rest: float) -> Doubt:

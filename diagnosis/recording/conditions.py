@@ -42,8 +42,7 @@ def scenario_of(base: Scenario, recording: Recording) -> Scenario:
     macro = nanoseconds(base.time.macro_step) * 1e-9
     for recorded in recording.inputs:
         _put_points(merged, recorded, macro, recording)
-    is_stop_stated = "stop" in recording.overrides.get("time", {})
-    if not is_stop_stated:
+    if "stop" not in recording.overrides.get("time", {}):
         output = nanoseconds(base.time.output_step) * 1e-9
         begin = base.time.start.to("s")
         steps = max(1, math.ceil((recording.end - begin) / output - 1e-9))
@@ -53,7 +52,7 @@ def scenario_of(base: Scenario, recording: Recording) -> Scenario:
     except InputError as error:
         problem = f"{error.problem} (with the overrides of {recording.path})"
         remedy = error.remedy
-        if is_stop_stated and error.key == "time":
+        if error.key == "time" and set(recording.overrides.get("time", {})) == {"stop"}:
             remedy = "leave time.stop out of the recording's overrides: the run then ends with its last reading"
         raise InputError(error.source, error.key, problem, remedy) from error
 
