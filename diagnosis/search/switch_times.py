@@ -24,15 +24,19 @@ from diagnosis.search.fit import Fit, fit, fit_best
 from diagnosis.search.free_numbers import Free
 from diagnosis.search.problem import Model, Own, Parameter, Point, Term
 from diagnosis.search.shares import own_label
+from diagnosis.search.structure import structure
 
 #: Prior standard deviation of an instant, in rows: it lies within the row before, or in the one after where a logger
 #: writes what it sets.
 HALF = 0.5
 #: Largest departure, in prior deviations: one row.
 ONE_ROW = 2.0
-#: Changes of a recording's inputs up to which each has an instant of its own. An input of more changes nearly with each
-#: row, as a course that is sampled does: between its rows it is somewhere between its values.
-MOST = 24
+#: Changes of a recording's inputs up to which each has an instant of its own: each costs a simulation of its recording
+#: in every step of a fit.
+MOST = 64
+#: Changes, and share of the rows of an input, beyond both of which it changes nearly with each row, as a course that is
+#: sampled does: between its rows it is somewhere between its values.
+FEW, MOST_ROWS = 24, 0.25
 #: Probability of taking instants that are not needed.
 CHANCE = 1e-3
 #: Share of what noise does not explain that instants have to explain.
@@ -78,6 +82,8 @@ def switch_times(scenarios: Sequence[Scenario], recordings: Sequence[Recording])
         own.sort(key=lambda pair: len(pair[1]))
         count = 0
         for recorded, switches in own:
+            if len(switches) > max(FEW, MOST_ROWS * len(recorded.times)):
+                continue
             count += len(switches)
             if count > MOST:
                 break
@@ -90,7 +96,8 @@ def are_needed(plain: Model, moved: Model, late: Sequence[Term] = (), terms: Ter
 
     By what they gain beyond their priors, more than chance gives so many of them once in a thousand: where changes
     come with their rows, such instants would only make everything else less certain. And by what they leave: where a
-    law is missing, many free instants take up a bit of it; they explain what noise does not if that is most of it.
+    law is missing, many free instants take up a bit of it; they explain what noise does not if that is most of it, or
+    if nothing but noise is left, whatever its size: no noise need be stated, and a larger one than stated is no law.
     A dead time is what all changes of an input have in common: they must gain over that too.
 
     Args:
@@ -103,14 +110,30 @@ def are_needed(plain: Model, moved: Model, late: Sequence[Term] = (), terms: Ter
     least = chdtri(count, CHANCE)
     given = terms or {}
     as_recorded, free = (fit(m, Point(np.zeros(len(m.parameters)), given)) for m in (plain, moved))
-    excess = as_recorded.cost - len(plain.layout.time)
-    if not as_recorded.cost - free.cost > max(least, MOST_OF_IT * excess):
-        return False
+    gain, excess = as_recorded.cost - free.cost, as_recorded.cost - len(plain.layout.time)
+    if not gain > max(least, MOST_OF_IT * excess):
+        # what is left is the noise then: a gain counts in its units (McCullagh and Nelder 1989, chapter 9)
+        louder = max(free.cost / max(len(plain.layout.time), 1), 1.0)
+        if not gain > louder * least or not _is_noise(free, moved):
+            return False
     common = _with_late(plain, late, as_recorded)
     if set(common.point.terms) == set(given):
         return True
     own = fit(moved, Point(np.zeros(len(moved.parameters)), common.point.terms))
     return bool(common.cost - min(own.cost, free.cost) > least)
+
+
+def _is_noise(found: Fit, model: Model) -> bool:
+    """Whether a fit leaves nothing but noise, that of each channel as large as its neighbouring readings differ by."""
+    left = found.residuals.copy()
+    for number in range(len(model.layout.names)):
+        own = np.flatnonzero((model.layout.channel == number) & (left != 0.0))
+        if len(own) > FEWEST:
+            typical = float(np.median(np.abs(np.diff(left[own])))) / (
+                0.6745 * np.sqrt(2.0)
+            )  # the median of |z| is 0.6745
+            left[own] /= max(typical, 1.0)
+    return structure(left, model.layout).is_noise
 
 
 def _with_late(plain: Model, late: Sequence[Term], best: Fit) -> Fit:

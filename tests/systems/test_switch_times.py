@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -43,7 +44,14 @@ connections: [stove.heating -> hut.power]
 """
 
 
-def record(folder: Path, seed: int, changes: int = 10, is_between: bool = True, square: float = 0.0) -> np.ndarray:
+def record(
+    folder: Path,
+    seed: int,
+    changes: int = 10,
+    is_between: bool = True,
+    square: float = 0.0,
+    noise: float = 0.05,
+) -> np.ndarray:
     """Readings by the closed form between the instants at which the heating changes; the instants [s].
 
     Args:
@@ -52,6 +60,7 @@ def record(folder: Path, seed: int, changes: int = 10, is_between: bool = True, 
         changes: How often the heating changes.
         is_between: Whether it changes between rows of the table.
         square: What the stove gives beside its power, per power squared [1/W].
+        noise: Deviation of the readings; 0.05 K is stated [K].
     """
     rng = np.random.default_rng(seed)
     capacity, conductance = 9.4e4, 105.0
@@ -68,7 +77,7 @@ def record(folder: Path, seed: int, changes: int = 10, is_between: bool = True, 
         value = rest + (value - rest) * np.exp(-conductance / capacity * (end - begin))
         course[float(end)] = value
     logged = powers[np.searchsorted(instants, times, side="right")]
-    air = np.array([course[float(t)] for t in times]) - 273.15 + 0.05 * rng.standard_normal(COUNT)
+    air = np.array([course[float(t)] for t in times]) - 273.15 + noise * rng.standard_normal(COUNT)
     columns = {"t": times, "P": 1e-3 * logged, "T": air}
     write_recording(folder, columns, {"stove.heating": ("P", "kW")}, {"hut.air": ("T", "degC", "0.05 K")})
     return instants
@@ -137,13 +146,37 @@ def test_a_change_that_comes_earlier_adds_what_it_gives_in_that_time(hut: Scenar
         assert energy(moved) - energy(given) == pytest.approx(earlier * change, rel=1e-9)
 
 
+def test_a_noise_that_is_stated_too_small_hides_no_instants(hut: Scenario, tmp_path: Path) -> None:
+    """What noise does not explain is mostly noise then: what is left beside instants is white, whatever its size."""
+    for n, name in enumerate(("first", "second", "third")):
+        record(tmp_path / name, n, noise=0.25)
+    recordings = [load_recording(tmp_path / name) for name in ("first", "second", "third")]
+    assert ClosedLoopModel(hut, recordings).has_instants
+    for n, name in enumerate(("one", "two", "three")):
+        record(tmp_path / name, n, is_between=False, noise=0.25)
+    recordings = [load_recording(tmp_path / name) for name in ("one", "two", "three")]
+    assert not ClosedLoopModel(hut, recordings).has_instants
+
+
+def test_forty_changes_in_rows_that_mostly_hold_have_instants(hut: Scenario, tmp_path: Path) -> None:
+    """A share of the rows tells a course from an input that holds its values, and no count of its changes alone."""
+    record(tmp_path / "many", 8, changes=40)
+    many = load_recording(tmp_path / "many")
+    assert 30 <= len(switch_times([scenario_of(hut, many)], [many])) <= 40
+    assert ClosedLoopModel(hut, [many]).has_instants
+    (stove,) = many.inputs
+    rows = np.concatenate([[True], np.diff(stove.values) != 0.0])
+    course = replace(many, inputs=(replace(stove, times=stove.times[rows], values=stove.values[rows]),))
+    assert switch_times([scenario_of(hut, course)], [course]) == []
+
+
 def test_courses_that_change_with_each_row_or_along_lines_have_no_such_instants(hut: Scenario, tmp_path: Path) -> None:
-    record(tmp_path / "busy", 5, changes=MOST + 6)
-    record(tmp_path / "few", 6, changes=MOST - 14)
+    record(tmp_path / "busy", 5, changes=2 * MOST)
+    record(tmp_path / "few", 6, changes=10)
     busy, few = (load_recording(tmp_path / n) for n in ("busy", "few"))
     assert switch_times([scenario_of(hut, busy)], [busy]) == []
     found = switch_times([scenario_of(hut, few)], [few])
-    assert 5 <= len(found) <= MOST - 14
+    assert 5 <= len(found) <= 10
     assert {f.parameter.deviation for f in found} == {0.5 * ROW}
     text = SCENARIO.replace("constant: 0 kW}", "interpolation: linear, points: [[0 s, 0 kW], [60 s, 0 kW]]}")
     (tmp_path / "line.yaml").write_text(text)
