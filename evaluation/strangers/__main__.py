@@ -38,6 +38,7 @@ from evaluation.strangers import (
     third_set,
     thirteenth_set,
     thirtieth_set,
+    thirty_first_set,
     twelfth_set,
     twentieth_set,
     twenty_eighth_set,
@@ -84,6 +85,7 @@ SETS = {
     "twenty_eighth": twenty_eighth_set.CASES,
     "twenty_ninth": twenty_ninth_set.CASES,
     "thirtieth": thirtieth_set.CASES,
+    "thirty_first": thirty_first_set.CASES,
 }
 #: Units of findings that are no physics.
 MEASURED = ("measurement", "input")
