@@ -9,6 +9,7 @@ import gc
 import json
 import os
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
 
@@ -112,11 +113,13 @@ def validate(scenario: ScenarioArgument, changes: Changes = None) -> None:
     counts = {n: len(u.variables) for n, u in assembly.system.units.items()}
     loops = dict.fromkeys(str(loop) for loop in [*assembly.system.initial_loops, *assembly.system.loops])
     assembly.system.terminate()
+    outside = [text for unit in assembly.system.units.values() for text in unit.outside_range]
     parts = ", ".join(f"{name} ({count} variables)" for name, count in counts.items())
     print(f"{loaded.path}: valid; {parts}; {len(assembly.scenario.connections)} connections")
     for loop in loops:
         print(f"  {loop}")
     print(f"  {estimate(assembly)}")
+    _warn(outside)
 
 
 @app.command()
@@ -231,19 +234,27 @@ def _folder(scenario: str, out: Path | None, resume: bool, overwrite: bool) -> R
 
 def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False, csv: bool = False) -> None:
     """Run with a progress bar; a run that stops early ends the program with its exit code."""
+    from cosim.observers.ranges import outside_ranges
     from cosim.progress import progress_bar
     from cosim.run import RunStopped, record
 
     try:
         with progress_bar(scenario.title) as on_progress:
-            record(scenario, folder.path, resume, on_progress, csv, folder.overwrites)
+            recorded = record(scenario, folder.path, resume, on_progress, csv, folder.overwrites)
+        _warn(outside_ranges(recorded.trace))
     except RunStopped as stopped:
         print(f"stopped: {printable(str(stopped.reason))}", file=sys.stderr)
+        _warn(outside_ranges(stopped.recorded.trace))
         if folder.summary.is_file():
             print(f"  kept: {folder.results}", file=sys.stderr)
         if stopped.is_interrupt:
             print(f"  go on with: cosim run {as_argument(folder.path)} --resume", file=sys.stderr)
         raise typer.Exit(INTERRUPTED if stopped.is_interrupt else FAILED) from stopped
+
+
+def _warn(texts: Iterable[str]) -> None:
+    for text in texts:
+        print(f"warning: {printable(text)}", file=sys.stderr)
 
 
 def _draw(folder: RunFolder, formats: list[str]) -> None:

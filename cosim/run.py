@@ -22,6 +22,7 @@ from cosim.interrupt import Interrupt, deferred_interrupt
 from cosim.loop import Loop, Watched, choose_loop
 from cosim.native.plan import Grid
 from cosim.observers.energy_balance import EnergyMeter
+from cosim.observers.ranges import outside_ranges
 from cosim.observers.trace import Trace
 from cosim.run_folder import RunFolder, read_checkpoint, useless_checkpoint
 from cosim.scenario import Scenario
@@ -70,12 +71,12 @@ class RunStopped(Exception):
 
     def __init__(self, reason: str, recorded: Recorded, is_interrupt: bool) -> None:
         super().__init__(reason)
-        self.reason, self.is_interrupt, self._recorded = reason, is_interrupt, recorded
+        self.reason, self.is_interrupt, self.recorded = reason, is_interrupt, recorded
 
     @cached_property
     def dataset(self) -> xr.Dataset:
         """Values recorded so far."""
-        return self._recorded.dataset()
+        return self.recorded.dataset()
 
 
 @dataclass(frozen=True)
@@ -329,10 +330,11 @@ def _run_to_end(
         reason = f"at t = {seconds(state.now):.6g} s: {error}"
     except KeyboardInterrupt:
         reason, is_interrupt = f"interrupted at t = {seconds(state.now):.6g} s", True
-    recorded = Recorded(state.trace, _attributes(state, reason))
+    outside = outside_ranges(state.trace)
+    recorded = Recorded(state.trace, _attributes(state, reason, outside))
     if folder is not None:
         try:
-            folder.write_results(state.trace, recorded.attributes, _summary(state, reason))
+            folder.write_results(state.trace, recorded.attributes, _summary(state, reason) | {"outside_range": outside})
         except InputError as error:
             reason, is_interrupt = reason or f"at t = {seconds(state.now):.6g} s: {error}", False
     if reason:
@@ -385,7 +387,7 @@ def _can_checkpoint(state: _Clockwork, is_kept: bool) -> bool:
     return not unable
 
 
-def _attributes(state: _Clockwork, reason: str) -> dict[str, Any]:
+def _attributes(state: _Clockwork, reason: str, outside: Sequence[str]) -> dict[str, Any]:
     found: dict[str, Any] = {
         "title": state.scenario.title,
         "status": reason or "complete",
@@ -401,7 +403,7 @@ def _attributes(state: _Clockwork, reason: str) -> dict[str, Any]:
             "energy_convected_J": balance.convected,
             "energy_residual": balance.residual,
         }
-    return found
+    return found | ({"outside_range": "; ".join(outside)} if outside else {})
 
 
 def _summary(state: _Clockwork, reason: str) -> dict[str, Any]:

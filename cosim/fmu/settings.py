@@ -21,6 +21,7 @@ from cosim.fmu.variables import FmuVariable, Sizes, added_input, declared_array,
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Causality, UnitError, are_equal
 from cosim.unit.quantity import PhysicalValue
+from cosim.unit.ranges import beyond, has_range, in_words, with_unit
 
 #: Relative rounding of a parameter that an FMU keeps in single precision.
 _ROUNDING = 1e-6
@@ -203,6 +204,24 @@ class Table:
             return self._array("parameters", name, variable, self.settings.parameters[name])
         start = start_value(variable.declared, variable.variable.type, variable.variable.shape)
         return np.asarray(0.0 if start is None else start)
+
+    def outside_range(self) -> list[str]:
+        """A sentence for each parameter or start value that lies outside the range which the FMU declares for it."""
+        found = []
+        for part, given in (("parameters", self.settings.parameters), ("start", self.settings.start)):
+            for key, value in given.items():
+                variable = self.all[key].variable if key in self.all else None
+                if variable is None or not has_range(variable):
+                    continue
+                values = self._array(part, key, self.all[key], value)
+                outside = beyond(variable, values)
+                if outside.any():
+                    worst = float(values.flat[int(np.argmax(outside))])
+                    found.append(
+                        f"{self.name}.{part}.{key} = {with_unit(worst, variable)} is outside the range for which this "
+                        f"FMU is made ({in_words(variable)})"
+                    )
+        return found
 
     def check_accepted(self, binding: Binding) -> None:
         """Read the numbers that were given to parameters back, in Initialization Mode.

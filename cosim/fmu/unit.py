@@ -111,6 +111,7 @@ class FmuUnit(Unit):
             self.can_checkpoint = bool(self.binding.capabilities.canSerializeFMUstate)
             self.table.configure(self.binding)
             self.table.set_parameters(self.binding, settings.parameters)
+            self.outside_range = self.table.outside_range()
             self.buffers = Buffers(self.binding, self.table.exposed)
             self.added = AddedTerms(name, self.table, interface == "model_exchange")
             if not self.added.is_empty:

@@ -6,7 +6,7 @@ puts into one array, so that an FMI 2.0 twin has the same variables as its FMI 3
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -170,7 +170,30 @@ def variable_of(
         start,
         type=vtype,
         first_index=first_index,
+        least=_bound(declared, vtype, "min", min),
+        most=_bound(declared, vtype, "max", max),
     )
+
+
+def _bound(
+    declared: Sequence[ModelVariable], vtype: VariableType, name: str, widest: Callable[[Iterable[float]], float]
+) -> float | None:
+    """What a variable, or else its declared type, says of its range; of gathered scalars the widest. None: any value.
+
+    Source: FMI 2.0.4, section 2.2.7, and FMI 3.0.2, section 2.4.7: the region in which the FMU is designed to operate.
+    """
+    if not vtype.is_number:
+        return None
+    found = []
+    for v in declared:
+        text = getattr(v, name)
+        if text is None and v.declaredType is not None:
+            text = getattr(v.declaredType, name)
+        try:
+            found.append(float(text))
+        except (TypeError, ValueError):
+            return None
+    return widest(found)
 
 
 def start_value(declared: Sequence[ModelVariable], vtype: VariableType, shape: tuple[int, ...]) -> Any:

@@ -8,7 +8,7 @@ satisfy this one protocol; circuit and mechanics import nothing of `cosim` but t
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any, NamedTuple, Protocol, runtime_checkable
@@ -127,6 +127,8 @@ class Unit(Protocol):
     can_restore: bool = False
     #: Whether `checkpoint` works, so that a run that was interrupted can go on.
     can_checkpoint: bool = True
+    #: A sentence for each parameter or start value that lies outside the range which the unit declares for it.
+    outside_range: Sequence[str] = ()
 
     def set(self, name: str, value: AnyArray) -> None:
         """Copy `value` (shape of the variable) to an input. Raises UnitError if it is not finite."""

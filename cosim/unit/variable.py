@@ -103,6 +103,8 @@ class Variable:
         first_index: Number of the first element in the names that a user writes: 1, or 0 for an array gathered from
             FMI 2.0 scalars `x[0]`, `x[1]`, ...
         is_mean: Whether it is the mean over the step that ends at its time.
+        least: Smallest value for which the unit is made, in `unit`; None: any.
+        most: Largest value for which it is made; None: any.
     """
 
     name: str
@@ -116,6 +118,8 @@ class Variable:
     type: VariableType = VariableType.FLOAT64
     first_index: int = 1
     is_mean: bool = False
+    least: float | None = None
+    most: float | None = None
 
     def __post_init__(self) -> None:
         if len(self.dims) != len(self.shape):

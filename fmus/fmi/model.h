@@ -30,7 +30,8 @@ typedef enum {
 
 typedef enum { SCALAR, PER_COIL } Extent;
 
-typedef enum { ANY, NON_NEGATIVE, POSITIVE } Limit;
+/* Solids are positive temperatures whose description ends where the material melts; nothing refuses more. */
+typedef enum { ANY, NON_NEGATIVE, POSITIVE, SOLID_NITI, SOLID_NYLON } Limit;
 
 typedef struct {
     const char *name;        /* as in modelDescription.xml; elements of FMI 2.0 are `name[1]`, `name[2]`, ... */

@@ -20,7 +20,7 @@
       "Sensible and latent heat stored in each coil since the start") \
     V(convected_energy, "convected_energy", STATE, PER_COIL, "J", 0, ANY, 1, "convected_energy", \
       "Heat given to the surroundings since the start") \
-    V(temperature, "temperature", OUTPUT, PER_COIL, "K", 0, POSITIVE, 300, "tension stored_energy", \
+    V(temperature, "temperature", OUTPUT, PER_COIL, "K", 0, SOLID_NITI, 300, "tension stored_energy", \
       "Temperature of each coil") \
     V(martensite_fraction, "martensite_fraction", OUTPUT, PER_COIL, "1", 0, NON_NEGATIVE, 1, "tension stored_energy", \
       "Part of each coil that is martensite") \

@@ -18,7 +18,7 @@
     V(power, "power", INPUT, PER_COIL, "W", 0, ANY, 0.5, "", "Electrical power turned into heat in each coil") \
     V(ambient_temperature, "ambient_temperature", INPUT, SCALAR, "K", 295.15, POSITIVE, 300, "", \
       "Temperature of the surrounding air or bath") \
-    V(temperature, "temperature", STATE, PER_COIL, "K", 0, POSITIVE, 300, "temperature", "Temperature of each coil") \
+    V(temperature, "temperature", STATE, PER_COIL, "K", 0, SOLID_NITI, 300, "temperature", "Temperature of each coil") \
     V(convected_energy, "convected_energy", STATE, PER_COIL, "J", 0, ANY, 1, "convected_energy", \
       "Heat given to the surroundings since the start") \
     V(stiffness, "stiffness", OUTPUT, PER_COIL, "N/m", 0, POSITIVE, 200, "temperature", \
