@@ -181,8 +181,8 @@ def diagnose(
         return _unsearched(scenario, (model, training), (judge, held_out), doubts, settings, seconds)
     given, judge_before = model, judge
     outcome, model, judge = _searched(given, judge, settings, on_progress)
-    laws = outcome.best.fit.point.lasting.terms
-    moved = None if outcome.left.is_noise else with_switch_times(given, judge_before, laws)
+    known_by_then = outcome.best.fit.point.terms
+    moved = None if outcome.left.is_noise else with_switch_times(given, judge_before, known_by_then)
     if moved is not None:
         with suppress(TimeIsOver), may_be_left():
             on_progress("searching again: inputs changed between rows of their tables")

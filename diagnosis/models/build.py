@@ -9,6 +9,7 @@ from cosim.compute.batch import Batches
 from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from diagnosis.candidates.candidate import CandidateTerm
+from diagnosis.faults.model import with_faults
 from diagnosis.models.coil_network.model import CoilNetworkModel
 from diagnosis.models.coil_network.runs import check_rig
 from diagnosis.models.coil_network.translate import NoCoilNetwork
@@ -20,7 +21,7 @@ from diagnosis.models.systems.model import SystemModel
 from diagnosis.models.timeline import Timeline
 from diagnosis.recording.fits import fitting
 from diagnosis.recording.recording import Recording
-from diagnosis.search.switch_times import Terms
+from diagnosis.search.switch_times import Terms, are_needed
 
 
 def model_of(
@@ -114,12 +115,13 @@ def with_switch_times(
 ) -> tuple[DiagnosisModel, DiagnosisModel | None] | None:
     """Both models with an instant for each change of a recorded input, where readings ask for that beside found laws.
 
-    Before anything is found a law that is missing hides that they do, or such instants take up a bit of it.
+    Before anything is found a law that is missing hides that they do, or such instants take up a bit of it; so does a
+    fault of one recording, which is far larger than what the rows leave.
 
     Args:
         model: Model of the recordings that were fitted.
         judge: Model of those held out.
-        terms: Laws that were found, with their values.
+        terms: Laws and faults that were found, with their values.
 
     Returns:
         None where they do not ask for it.
@@ -127,8 +129,13 @@ def with_switch_times(
     Raises:
         InputError: See `models_of`.
     """
-    moved = model.with_switch_times(terms) if isinstance(model, ClosedLoopModel) else None
-    if moved is None:
+    moved = model.with_instants() if isinstance(model, ClosedLoopModel) else None
+    if moved is None or not isinstance(model, ClosedLoopModel):
+        return None
+    lasting = {t: v for t, v in terms.items() if t.recording is None}
+    tried = [lasting] if len(lasting) == len(terms) else [lasting, terms]
+    plain, free, late = with_faults(model), with_faults(moved), model.late_inputs()
+    if not any(are_needed(plain, free, late, own) for own in tried):
         return None
     return moved, judge.after(moved) if isinstance(judge, ClosedLoopModel) else judge
 

@@ -15,7 +15,7 @@ from cosim.cli import app
 from cosim.loading import load_scenario
 from cosim.scenario import Scenario
 from diagnosis.faults.programme import with_changes
-from diagnosis.models.build import models_of
+from diagnosis.models.build import models_of, with_switch_times
 from diagnosis.models.cosimulation.model import ClosedLoopModel
 from diagnosis.recording.conditions import scenario_of
 from diagnosis.recording.recording import load_recording
@@ -192,12 +192,39 @@ def test_a_missing_law_is_looked_for_before_instants_are(hut: Scenario, tmp_path
     model = ClosedLoopModel(hut, recordings)
     assert not model.has_instants
     nothing = Point(np.zeros(len(model.parameters)))
-    assert model.with_switch_times({}) is None
+    assert with_switch_times(model, None, {}) is None
     law = next(t for t in model.terms() if t.identifier == "input_square")
     found = fit(model, nothing.plus(law, (law.parameters[0].starts[0],)))
-    moved = model.with_switch_times(found.point.terms)
-    assert moved is not None
+    both = with_switch_times(model, None, found.point.terms)
+    assert both is not None
+    moved, _ = both
+    assert isinstance(moved, ClosedLoopModel)
     assert moved.has_instants
     changes = [p for p in moved.parameters if p.is_within_row]
     assert len(changes) == len(moved.parameters) - len(model.parameters) > 10
-    assert moved.with_switch_times(found.point.terms) is None  # it has them already
+    assert with_switch_times(moved, None, found.point.terms) is None  # it has them already
+
+
+def test_a_fault_of_one_recording_does_not_hide_that_inputs_changed_between_rows(hut: Scenario, tmp_path: Path) -> None:
+    """A thermometer that is 8 K off for an hour leaves far more than the rows do: they are asked for beside it."""
+    for n, name in enumerate(("first", "second", "third")):
+        record(tmp_path / name, n)
+    table = (tmp_path / "second" / "data.csv").read_text().splitlines()
+    moved = [line.split(",") for line in table]
+    column = moved[0].index("T")
+    for row in moved[101:131]:
+        row[column] = str(float(row[column]) + 8.0)
+    (tmp_path / "second" / "data.csv").write_text("\n".join(",".join(row) for row in moved) + "\n")
+    recordings = [load_recording(tmp_path / name) for name in ("first", "second")]
+    model = ClosedLoopModel(hut, recordings)
+    assert not model.has_instants
+    asked = ["diagnose", str(tmp_path / "scenario.yaml"), "--brief", "--out", str(tmp_path / "answer")]
+    asked += ["--recording", str(tmp_path / "first"), "--recording", str(tmp_path / "second")]
+    done = CliRunner().invoke(app, [*asked, "--held-out", str(tmp_path / "third")])
+    assert done.exit_code == 0, done.output
+    answer = json.loads((tmp_path / "answer" / "diagnosis.json").read_text())
+    assert answer["verdict"] == "measurement fault", done.output
+    (fault,) = answer["findings"]
+    assert fault["effect"] == "sensor_offset_in_interval"
+    assert fault["parameters"][0]["value"] == pytest.approx(8.0, abs=0.1)
+    assert "of recorded inputs between two rows of their table" in " ".join(answer["notes"])

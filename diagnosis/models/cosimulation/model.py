@@ -28,7 +28,7 @@ from diagnosis.search.cosim_run import changed
 from diagnosis.search.free_numbers import Free, Numbers, free_parameters
 from diagnosis.search.pendulum_terms import arm_of, pendulum_laws, sensor_laws
 from diagnosis.search.problem import Layout, Parameter, Point, Term
-from diagnosis.search.switch_times import Terms, are_needed, switch_times
+from diagnosis.search.switch_times import are_needed, switch_times
 from diagnosis.search.unit_law import UnitLaw
 
 
@@ -118,20 +118,16 @@ class ClosedLoopModel(ModelBase):
         self._begin(model, recordings)
         return True
 
-    def with_switch_times(self, terms: Terms) -> ClosedLoopModel | None:
-        """The same with an instant of its own for each change of a recorded input.
-
-        Args:
-            terms: Laws that were found, with their values.
-
-        Returns:
-            None where the recordings do not ask for that beside those laws, or have it already.
-        """
+    def with_instants(self) -> ClosedLoopModel | None:
+        """The same with an instant of its own for each change of a recorded input; None where there is no more."""
         if self.has_instants or not isinstance(self.model, SystemModel):
             return None
         found = ClosedLoopModel(*self._given, like=self, instants=True)
-        is_asked = found.has_instants and are_needed(self.model, found.model, self.model.late_inputs(), terms)
-        return found if is_asked else None
+        return found if found.has_instants else None
+
+    def late_inputs(self) -> list[Term]:
+        """Laws that an input is late by, and nothing else."""
+        return self.model.late_inputs() if isinstance(self.model, SystemModel) else []
 
     def after(self, other: ClosedLoopModel) -> ClosedLoopModel:
         """The model of the same recordings with laws and kinds of numbers as the model of others has them."""
