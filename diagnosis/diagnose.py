@@ -61,7 +61,7 @@ from diagnosis.judge.verdict import evident, verdict, why_open
 from diagnosis.judge.within_rows import within_rows
 from diagnosis.locate.locate import Located
 from diagnosis.model_error import search_with_model_error
-from diagnosis.models.build import models_of, uses_batches, with_switch_times
+from diagnosis.models.build import models_of, uses_batches, with_rig_faults, with_switch_times
 from diagnosis.models.cosimulation.unit_laws import identifiers
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.models.wrappers.biased import with_biases
@@ -179,10 +179,11 @@ def diagnose(
     if options.is_checked and of_another_experiment(doubts):
         seconds = clock.perf_counter() - begin
         return _unsearched(scenario, (model, training), (judge, held_out), doubts, settings, seconds)
+    model = with_rig_faults(model, training, {d.recording for d in doubts if d.kind == ODD})
     given, judge_before = model, judge
     outcome, model, judge = _searched(given, judge, settings, on_progress)
-    known_by_then = outcome.best.fit.point.terms
-    moved = None if outcome.left.is_noise else with_switch_times(given, judge_before, known_by_then)
+    acting = outcome.best.fit.point.terms  # without any it was asked when the model was made
+    moved = with_switch_times(given, judge_before, acting) if acting or not outcome.left.is_noise else None
     if moved is not None:
         with suppress(TimeIsOver), may_be_left():
             on_progress("searching again: inputs changed between rows of their tables")

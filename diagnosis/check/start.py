@@ -11,6 +11,7 @@ from cosim.unit.quantity import conversion
 from diagnosis.check.beside import Beside, Compared, held_inputs
 from diagnosis.check.explain import LEVEL
 from diagnosis.check.feedthrough import follows_at_once
+from diagnosis.check.numbers_at_start import moved_by_numbers
 from diagnosis.check.quantiles import normal_beyond
 from diagnosis.check.readings import measured_noise
 from diagnosis.check.scale import first
@@ -39,7 +40,7 @@ def start_doubts(compared: Compared) -> list[Doubt]:
     No such doubt is serious: a start that is stated wrongly can be stated rightly. It is far where it would take more
     than `STRAINED` deviations of a start; then it is no start of that day, and says nothing of the model.
     A recording that begins when the simulated rig has been driven already has no start to compare: what it begins with
-    is the model's doing.
+    is the model's doing. Nor has an output whose first value hangs on numbers of the rig.
     """
     found = []
     members = [b for b in compared.channels.values() if b.channel.unit == "K" and b.simulated is not None]
@@ -57,7 +58,9 @@ def start_doubts(compared: Compared) -> list[Doubt]:
             most = STRAINED * float(np.hypot(deviation, usual)) + beside.channel.bias_bound
             is_far = abs(off) > most and not compared.recording.beginning
             found.append(replace(_doubt(compared, beside, off, abs(off) / total), is_far=is_far))
-    return [*found, *_others(compared)]
+    found += _others(compared)
+    by_numbers = moved_by_numbers(compared, [compared.channels[d.subject] for d in found])
+    return [d for d in found if d.subject not in by_numbers]
 
 
 def _others(compared: Compared) -> list[Doubt]:
@@ -113,7 +116,9 @@ def with_odd_starts(doubts: Sequence[Doubt], every: Sequence[Compared]) -> list[
     slow = []
     for one in (o for o in every if o.recording.title not in known):
         for doubt, beside, is_forgotten in _elsewhere(one):
-            if not is_forgotten and _is_nearer_at_last(beside) and _is_odd(doubt, every):
+            if is_forgotten or not _is_nearer_at_last(beside) or not _is_odd(doubt, every):
+                continue
+            if not moved_by_numbers(one, [beside]):
                 slow.append(replace(doubt, is_serious=True))
     return [
         *(

@@ -157,10 +157,32 @@ HELD = FaultLaw(
         "sensor_offset_in_interval": "another sensor of the same part decides",
     },
 )
+PARAMETER = FaultLaw(
+    "parameter_in_interval",
+    "parameter of the rig that was another for a while",
+    f"parameter = stated * (1 + share * box(t)); {_INTERVAL}",
+    "share",
+    {
+        "input_gain_in_interval": "a record of the input itself decides",
+        "sensor_offset_in_interval": "another sensor of the same part decides",
+    },
+)
+RATE = FaultLaw(
+    "rate_in_interval",
+    "something that acted on the rig for a while",
+    f"derivative = that of the model + rate * box(t); {_INTERVAL}",
+    "rate",
+    {
+        "unstated_input_in_interval": "a record of the input itself decides",
+        "sensor_drift_in_interval": "another sensor of the same part decides",
+    },
+)
+#: What of the rig was another in one recording.
+OF_THE_RIG = (PARAMETER, RATE)
 #: Faults of inputs: what is stated was another, acted where nothing was stated, or stayed.
 OF_INPUTS = (INPUT, UNSTATED, HELD)
 #: Faults whose course a law of the rig may have as well: what an input does, what comes slowly, and what comes late.
-AS_A_LAW = (*OF_INPUTS, DRIFT, SLOWER, LATE)
+AS_A_LAW = (*OF_INPUTS, *OF_THE_RIG, DRIFT, SLOWER, LATE)
 #: Faults that may last for a whole recording: what they do there is no bias, and other recordings are without it.
 LASTING = (DRIFT, SLOWER, LATE)
 #: Faults that change when something is read, and not what.
@@ -174,6 +196,8 @@ STRETCHES = 4
 ACCURACY = 0.01
 
 
+#: Largest rate that is tried, in rates at which a state moves by a fifth of its range in the recording.
+MOST_RATES = 100.0
 #: Share by which the gain of a sensor is off that is no finding.
 SENSOR_ACCURACY = 0.01
 #: Width of a channel's readings, as a share of the largest, below which a gain is an offset by another name.
@@ -185,6 +209,24 @@ def gain(
 ) -> TermParameter:
     """Strength of a wrong input, or of a wrong gain of a sensor: nothing at -1, twice as much at 1."""
     return TermParameter("gain", "1", -1.0, 1.0, (0.02,), negligible=negligible, meaning=meaning)
+
+
+def parameter_share() -> TermParameter:
+    """Strength of a parameter that was another: from a twentieth of what is stated to five times it."""
+    what = "change of the parameter in the interval, as a share of what is stated"
+    return TermParameter("share", "1", -0.95, 4.0, (0.02,), negligible=ACCURACY, meaning=what)
+
+
+def added_rate(unit: str, usual: float) -> TermParameter:
+    """Strength of what was added to a derivative.
+
+    Args:
+        unit: SI unit of the derivative.
+        usual: Rate at which the state moves by a good part of its range in the recording.
+    """
+    most = MOST_RATES * usual
+    what = "what was added to the derivative in the interval"
+    return TermParameter("rate", unit, -most, most, (0.1 * usual,), negligible=ACCURACY * usual, meaning=what)
 
 
 def lag_time(step: float, longest: float) -> TermParameter:

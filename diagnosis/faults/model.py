@@ -16,6 +16,7 @@ from diagnosis.faults.law import (
     LONGEST_LAG,
     OCCASIONS,
     OF_INPUTS,
+    OF_THE_RIG,
     OFFSET,
     RISE,
     SCALED,
@@ -46,7 +47,7 @@ _SEEN: Mapping[str, Callable[[Readings, Array, float, float, float], Array]] = {
     SLOWER.identifier: Readings.slower,
     LATE.identifier: Readings.shifted,
 }
-_LAWS = {law.identifier: law for law in (OFFSET, DRIFT, SCALED, RISE, STUCK, SLOWER, LATE, *OF_INPUTS)}
+_LAWS = {law.identifier: law for law in (OFFSET, DRIFT, SCALED, RISE, STUCK, SLOWER, LATE, *OF_INPUTS, *OF_THE_RIG)}
 #: Samples by which begin and end are moved to look for a better interval near the one found. Where an input is nearly
 #: zero, a change of its gain tells nothing of its end, which is only seen from beyond.
 _FAR = (1, 2, 3, 5, 8, 13, 21, 34, 55, 89)

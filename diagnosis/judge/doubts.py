@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from diagnosis.faults.law import AGAIN, OF_INPUTS, is_one_of
+from diagnosis.faults.law import AGAIN, OF_INPUTS, OF_THE_RIG, is_one_of
 from diagnosis.judge.diagnosis import ChannelFit, Doubt, Finding, Standing
 
 #: Units of findings that are no physics of the rig.
@@ -202,7 +202,7 @@ def _one_cause(findings: Sequence[Finding]) -> tuple[Finding, ...]:
         for f in findings
     ]
     of_each: dict[tuple[str, str], list[Finding]] = {}
-    for finding in (f for f in told if is_of_an_interval(f) and not is_one_of(f.effect, OF_INPUTS)):
+    for finding in (f for f in told if is_of_an_interval(f) and not is_one_of(f.effect, (*OF_INPUTS, *OF_THE_RIG))):
         of_each.setdefault((finding.recording, finding.place.removesuffix(AGAIN)), []).append(finding)
     pieces = [f for own in of_each.values() for f in own if f.is_accepted and _is_piece(f, own)]
     return tuple(_suggested(f, _PIECES) if any(f is p for p in pieces) else f for f in told)

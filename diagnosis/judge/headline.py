@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from diagnosis.faults.law import OF_THE_RIG, is_one_of
 from diagnosis.judge.diagnosis import Adequacy, Doubt, Finding, Standing, Verdict
 from diagnosis.judge.doubts import accuses, faults, is_explained, is_physics, of_another_experiment
 from diagnosis.report.display import clean, listed, moved, number, user_unit
@@ -35,6 +36,9 @@ _TOGETHER = (
     "; laws without a name describe together what is missing, which need not be as many effects, nor act at these "
     "places"
 )
+#: What is at fault where nothing of the rig is; and where it is, in several ways.
+_SENSOR = "A sensor or an input is at fault"
+_RIG_OFTEN = "In single recordings the rig was another than in the others"
 #: Share of what stays from which instants of inputs within a row are named as a possible reason.
 ROWS = 0.5
 #: Share below which what recalibration explains would read as 0 %.
@@ -68,7 +72,7 @@ def headline(
         f"{_noise(adequacy, is_fitted=False)}{_OWN if adequacy.needs_day else ''}.",
         Verdict.RECALIBRATED: f"The model agrees with the {_basis(adequacy)} within {_noise(adequacy)} once its own "
         "parameters are recalibrated.",
-        Verdict.MEASUREMENT_FAULT: f"A sensor or an input is at fault: {_fault(named.measured, doubts)}.",
+        Verdict.MEASUREMENT_FAULT: f"{_at_fault(found, doubts)}: {_fault(named.measured, doubts)}.",
         Verdict.MISSING_PHYSICS: f"The model leaves out: {named.physics}.",
         Verdict.UNNAMED_PHYSICS: f"The model leaves out something without a name: {named.physics}.",
         Verdict.CANNOT_TELL: f"It cannot be told {_open(adequacy)}: {reasons[0] if reasons else ''}.",
@@ -95,7 +99,8 @@ def notes(
     if verdict is Verdict.CANNOT_TELL:
         told += [f"A further reason: {reason.rstrip('.')}." for reason in reasons[1:]]
     if named.physics and named.measured:
-        told.append(f"Besides, a sensor or an input is at fault: {named.measured}.")
+        what = _at_fault(found, ())
+        told.append(f"Besides, {what[0].lower()}{what[1:]}: {named.measured}.")
     if named.described:
         if verdict is Verdict.CANNOT_TELL:
             told.append(
@@ -180,6 +185,15 @@ def _named(verdict: Verdict, found: Sequence[Finding], doubts: Sequence[Doubt]) 
     )
 
 
+def _at_fault(found: Sequence[Finding], doubts: Sequence[Doubt]) -> str:
+    """What is at fault: sensors and inputs, the rig in one recording, or both."""
+    blamed = [f for f in found if f.is_accepted and not is_physics(f) and accuses(f)]
+    of_the_rig = [is_one_of(f.effect, OF_THE_RIG) for f in blamed]
+    if of_the_rig and all(of_the_rig) and not faults(doubts):
+        return "In one recording the rig was another than in the others" if len(blamed) == 1 else _RIG_OFTEN
+    return "A sensor, an input or the rig of one recording is at fault" if any(of_the_rig) else _SENSOR
+
+
 def _open(adequacy: Adequacy) -> str:
     """What cannot be told: a model that readings reject, and no noise that may be larger, lacks something.
 
@@ -258,7 +272,7 @@ def _model(adequacy: Adequacy, is_amended: bool, has_fault: bool) -> str:
     if is_amended:
         return "The amended model"
     if has_fault:
-        return "The model with what was found of sensors and inputs"
+        return "The model with what was found of sensors, inputs and single recordings"
     return "The recalibrated model" if adequacy.is_recalibrated else "The model as it is"
 
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cosim.unit.protocol import AnyArray
-from diagnosis.faults.law import LASTING, is_one_of
+from diagnosis.faults.law import LASTING, OF_THE_RIG, is_one_of
 from diagnosis.judge.unfitted import Readings, raw_residuals, readings_of
 from diagnosis.models.protocol import DiagnosisModel
 from diagnosis.search.problem import Point, Term
@@ -91,6 +91,11 @@ def hidden_fault(model: DiagnosisModel, point: Point, term: Term) -> str:
             return ""
         if size / rest > most:
             most, worst = size / rest, readings.channels[number].name
+    if is_whole and change.any() and is_one_of(term.identifier, OF_THE_RIG):
+        return (
+            "it lasts for the whole recording, so that no reading outside tells a change for a while from a number "
+            "that is another in this recording: give it under `overrides` there"
+        )
     if is_whole and change.any():
         return (
             "it lasts for the whole recording, so that no reading outside tells a fault of a while from a lasting one: "

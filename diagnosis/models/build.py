@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from cosim.components import CircuitComponent
 from cosim.compute.batch import Batches
@@ -138,6 +138,20 @@ def with_switch_times(
     if not any(are_needed(plain, free, late, own) for own in tried):
         return None
     return moved, judge.after(moved) if isinstance(judge, ClosedLoopModel) else judge
+
+
+def with_rig_faults(
+    model: DiagnosisModel, recordings: Sequence[Recording], standing_out: Collection[str]
+) -> DiagnosisModel:
+    """The model where something of the rig may have been another for a while in recordings that stand out.
+
+    Args:
+        model: Model of the recordings that are fitted.
+        recordings: These, in its order.
+        standing_out: Titles of recordings that the others do not explain.
+    """
+    numbers = frozenset(n for n, r in enumerate(recordings) if r.title in standing_out)
+    return model.with_rig_faults(numbers) if numbers and isinstance(model, ClosedLoopModel) else model
 
 
 def _without_beginning(recordings: Sequence[Recording]) -> None:

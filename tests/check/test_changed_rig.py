@@ -34,7 +34,7 @@ def _rate(t: float, x: Array, u: float, loss: float = G_OUT, lamp: float = 0.0) 
     return np.array([(u - through) / C_1, (through + lamp - loss * (x[1] - 295.0)) / C_2])
 
 
-def _fan_from_then_on(t: float, x: Array, u: float) -> Array:
+def fan_from_then_on(t: float, x: Array, u: float) -> Array:
     return _rate(t, x, u, loss=FANNED if t >= SINCE else G_OUT)
 
 
@@ -42,7 +42,7 @@ def _fan_for_a_while(t: float, x: Array, u: float) -> Array:
     return _rate(t, x, u, loss=FANNED if SINCE <= t < UNTIL else G_OUT)
 
 
-def _lamp_for_a_while(t: float, x: Array, u: float) -> Array:
+def lamp_for_a_while(t: float, x: Array, u: float) -> Array:
     return _rate(t, x, u, lamp=LAMP if SINCE <= t < UNTIL else 0.0)
 
 
@@ -51,19 +51,19 @@ def _swings(t: float, x: Array, u: float) -> Array:
     return _rate(t, x, u, lamp=15.0 * float(np.sin(t / 400.0)))
 
 
-def _recordings(folder: Path, second: Rate, names: tuple[str, ...] = tuple(CHANNELS)) -> list[Path]:
+def three_runs(folder: Path, second: Rate, names: tuple[str, ...] = tuple(CHANNELS)) -> list[Path]:
     """Three runs of a plate on a block, of which the second has another rig."""
     built(STACK, SCENARIO, folder)
     found = []
     for run in (1, 2, 3):
         rng = np.random.default_rng(100 + run)
         power = np.repeat(rng.uniform(0.0, 40.0, COUNT // HOLD), HOLD)
-        course = _course(second if run == 2 else _rate, power)
+        course = course_of(second if run == 2 else _rate, power)
         found.append(recorded(folder / f"run_{run}", power, course, rng, names))
     return found
 
 
-def _course(law: Rate, power: Array) -> Array:
+def course_of(law: Rate, power: Array) -> Array:
     """Temperatures of plate and block [K], shape (COUNT, 2): time is a third state of the equations."""
 
     def rate(x: Array, u: float) -> Array:
@@ -78,14 +78,14 @@ def _compared(folder: Path, recordings: list[Path]) -> tuple[Compared, list[Comp
 
 
 def _told(folder: Path, second: Rate) -> Doubt | None:
-    return asked(*_compared(folder, _recordings(folder, second)))
+    return asked(*_compared(folder, three_runs(folder, second)))
 
 
 @pytest.mark.parametrize(
     ("second", "words", "expected"),
     [
         (
-            _fan_from_then_on,
+            fan_from_then_on,
             r"stack\.G_out = ([\d.]+) W/K \(0\.8 is stated\) from about ([\d.]+) s on",
             (FANNED, SINCE),
         ),
@@ -95,7 +95,7 @@ def _told(folder: Path, second: Rate) -> Doubt | None:
             (FANNED, SINCE, UNTIL),
         ),
         (
-            _lamp_for_a_while,
+            lamp_for_a_while,
             r"der\(stack\.block\) larger by ([\d.]+) K/s from about ([\d.]+) to ([\d.]+) s",
             (LAMP / C_2, SINCE, UNTIL),
         ),
@@ -118,7 +118,7 @@ def test_what_was_another_is_told_with_its_size_and_when(
 
 def test_stated_under_overrides_it_is_no_more_told(tmp_path: Path) -> None:
     """What the remedy says: the recording is met once the term stands there."""
-    recordings = _recordings(tmp_path, _fan_from_then_on)
+    recordings = three_runs(tmp_path, fan_from_then_on)
     told = asked(*_compared(tmp_path, recordings))
     assert told is not None
     assert "a term that is added to `parameter(G_out)` of `stack`" in told.remedy
@@ -136,7 +136,7 @@ def test_stated_under_overrides_it_is_no_more_told(tmp_path: Path) -> None:
 
 
 def test_the_check_tells_it_of_a_recording_that_stands_out(tmp_path: Path) -> None:
-    recordings = _recordings(tmp_path, _fan_for_a_while)
+    recordings = three_runs(tmp_path, _fan_for_a_while)
     every = check_recordings(load_scenario(tmp_path / "scenario.yaml"), [load_recording(r) for r in recordings])
     (told,) = [d for d in every if d.recording == "run_2" and d.kind == "odd one out"]
     assert "as if something of the rig was another, with" in told.statement
@@ -152,16 +152,16 @@ def test_a_recording_that_is_met_is_not_asked_about(tmp_path: Path) -> None:
 
 
 def test_one_channel_proves_nothing(tmp_path: Path) -> None:
-    assert asked(*_compared(tmp_path, _recordings(tmp_path, _fan_from_then_on, ("stack.top",)))) is None
+    assert asked(*_compared(tmp_path, three_runs(tmp_path, fan_from_then_on, ("stack.top",)))) is None
 
 
 def test_a_long_run_is_not_tried(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(changed_rig, "MOST_STEPS", COUNT // 2)
-    assert _told(tmp_path, _fan_from_then_on) is None
+    assert _told(tmp_path, fan_from_then_on) is None
 
 
 def test_an_fmu_that_integrates_itself_takes_no_other_parameter(tmp_path: Path) -> None:
-    recordings = _recordings(tmp_path, _fan_from_then_on)
+    recordings = three_runs(tmp_path, fan_from_then_on)
     path = tmp_path / "scenario.yaml"
     path.write_text(path.read_text(encoding="utf-8").replace(", integrator: cvode", ""), encoding="utf-8")
     assert asked(*_compared(tmp_path, recordings)) is None
@@ -171,7 +171,7 @@ def test_of_many_changes_that_explain_it_the_first_are_told_and_the_others_count
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(changed_rig, "as_explained", lambda theirs: 0.37)
-    told = _told(tmp_path, _fan_from_then_on)
+    told = _told(tmp_path, fan_from_then_on)
     assert told is not None
     assert told.statement.count(" or ") == changed_rig.MOST - 1
     assert re.search(r"\(\d more of its numbers and derivatives do, too\)", told.statement)

@@ -92,7 +92,7 @@ def test_a_model_without_numbers_to_fit_is_not_called_recalibrated() -> None:
 
 def test_what_a_fault_explains_is_not_explained_by_recalibration() -> None:
     told = headline(Verdict.MEASUREMENT_FAULT, [FAULT], replace(ADEQUACY, day=()))
-    assert "The model with what was found of sensors and inputs explains 96 %" in told
+    assert "The model with what was found of sensors, inputs and single recordings explains 96 %" in told
     alone = replace(diagnosis(Verdict.MEASUREMENT_FAULT), findings=(FAULT,))
     assert model_note(alone) == "recalibrated, nothing added: a fault of one recording is no part of a model"
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
 from cosim.compute.batch import Batches
 from cosim.scenario import Scenario
+from cosim.unit.errors import InputError
 from cosim.unit.protocol import AnyArray, Array
 from diagnosis.amend.closed_loop import amend_closed_loop
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
@@ -17,6 +19,7 @@ from diagnosis.models.coil_network.runs import deviation
 from diagnosis.models.cosimulation.unit_laws import laws_of
 from diagnosis.models.pendulum.model import TORQUE, PendulumModel, is_single_pendulum, without_scale
 from diagnosis.models.protocol import ComparedRun, ComparedSeries, Labelled, ModelBase, compared_run
+from diagnosis.models.systems.changed_run import Changed, changes_of
 from diagnosis.models.systems.fmu_layout import NotFast
 from diagnosis.models.systems.model import SystemLaws, SystemModel, laws_at
 from diagnosis.models.systems.places import Fit
@@ -43,6 +46,7 @@ class ClosedLoopModel(ModelBase):
         like: Model of other recordings of the same scenario, whose laws and bounds it has too.
         instants: Whether each change of a recorded input has an instant of its own; None: as `like`, or as the
             recordings ask.
+        changes: What of the rig may have been another for a while in recordings, by their numbers.
 
     Raises:
         InputError: A scenario is wrong, or a recording does not fit it.
@@ -56,8 +60,10 @@ class ClosedLoopModel(ModelBase):
         batches: Batches | None = None,
         like: ClosedLoopModel | None = None,
         instants: bool | None = None,
+        changes: Mapping[int, Sequence[Changed]] = MappingProxyType({}),
     ) -> None:
         self._given = scenario, recordings, without, batches
+        self._changes = changes
         recordings = [_with_rounding(r) for r in recordings]
         laws, kind = laws_of(scenario), CosimModel
         #: Why compiled code does not simulate a system of FMUs; empty where it does, or where it is none.
@@ -103,9 +109,10 @@ class ClosedLoopModel(ModelBase):
             changes: Sequence[Free] = ()
             if has_instants is not False:
                 changes = switch_times([scenario_of(scenario, r) for r in recordings], recordings)
-            model = SystemModel(scenario, recordings, [*plain, *changes], laws.found, batches, self._like)
+            numbers = [*plain, *changes]
+            model = SystemModel(scenario, recordings, numbers, laws.found, batches, self._like, self._changes)
             if changes and has_instants is None:
-                without_them = SystemModel(scenario, recordings, plain, laws.found, batches, self._like)
+                without_them = SystemModel(scenario, recordings, plain, laws.found, batches, self._like, self._changes)
                 if not are_needed(without_them, model, model.late_inputs()):
                     model, changes = without_them, ()
             self.has_instants = bool(changes)
@@ -122,8 +129,21 @@ class ClosedLoopModel(ModelBase):
         """The same with an instant of its own for each change of a recorded input; None where there is no more."""
         if self.has_instants or not isinstance(self.model, SystemModel):
             return None
-        found = ClosedLoopModel(*self._given, like=self, instants=True)
+        found = ClosedLoopModel(*self._given, like=self, instants=True, changes=self._changes)
         return found if found.has_instants else None
+
+    def with_rig_faults(self, numbers: Collection[int]) -> ClosedLoopModel:
+        """The same where something of the rig may have been another for a while in some recordings, by their numbers.
+
+        What hundreds of simulations would take minutes of is not asked.
+        """
+        if not isinstance(self.model, SystemModel) or not self.model.can_try_rig_faults:
+            return self
+        try:
+            changes = {n: changes_of(self.model.scenarios[n]) for n in sorted(numbers)}
+        except (InputError, NotFast, CompilerError):
+            return self
+        return ClosedLoopModel(*self._given, like=self, changes=changes) if any(changes.values()) else self
 
     def late_inputs(self) -> list[Term]:
         """Laws that an input is late by, and nothing else."""
@@ -196,8 +216,12 @@ class ClosedLoopModel(ModelBase):
         return list(self._laws)
 
     def input_terms(self) -> list[Term]:
-        """Every output of a programme of every recording, as it may have been another within an interval."""
-        return list(self.model.inputs)
+        """Every output of a programme of every recording, as it may have been another within an interval.
+
+        And, in recordings that stand out, whatever of the rig may have been another.
+        """
+        rig = self.model.rig if isinstance(self.model, SystemModel) else ()
+        return [*self.model.inputs, *rig]
 
     def where(self, term: Term) -> tuple[UnitLaw, Labelled]:
         """Law and component of a term."""

@@ -18,6 +18,7 @@ from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import NotFast
 from diagnosis.models.systems.placed import Placed
 from diagnosis.models.systems.run import dataset, numbers_of, resolved
+from diagnosis.recording.units import si_unit
 
 #: 1 from begin to end of the interval, else 0.
 _BOX = "(step(time - begin) - step(time - end))"
@@ -49,6 +50,12 @@ class Changed:
         return self.stated is not None
 
     @property
+    def unit_of_amount(self) -> str:
+        """SI unit of an amount."""
+        own = si_unit(self.unit or "1")
+        return "1" if self.is_share else "1/s" if own == "1" else f"({own})/s"
+
+    @property
     def to(self) -> str:
         """Where it acts, as `added_terms` of a scenario say it."""
         return f"parameter({self.name})" if self.is_share else f"der({self.name})"
@@ -69,13 +76,11 @@ class ChangedRuns:
     """
 
     def __init__(self, scenario: Scenario) -> None:
-        plain, values = resolved(scenario)
-        with closing(plain):
-            #: Everything that may be another.
-            self.changes = [c for name in plain.fmus for c in _changes(plain, name, values)]
+        #: Everything that may be another.
+        self.changes = changes_of(scenario)
         if not self.changes:
             raise NotFast("nothing of its FMUs can be another for a while")
-        self._system, _ = resolved(scenario, [_placed(c) for c in self.changes])
+        self._system, _ = resolved(scenario, [placed_change(c) for c in self.changes])
 
     def close(self) -> None:
         """Free the FMUs."""
@@ -97,8 +102,16 @@ class ChangedRuns:
         return None if rows is None else dataset(self._system, rows.values)
 
 
-def _placed(changed: Changed) -> Placed:
-    numbers = (("amount", "1"), ("begin", "s"), ("end", "s"))
+def changes_of(scenario: Scenario) -> list[Changed]:
+    """Everything of a system that may be another for a while; see `ChangedRuns`."""
+    plain, values = resolved(scenario)
+    with closing(plain):
+        return [c for name in plain.fmus for c in _changes(plain, name, values)]
+
+
+def placed_change(changed: Changed) -> Placed:
+    """A change as a term: its numbers are amount, begin and end [s]."""
+    numbers = (("amount", changed.unit_of_amount), ("begin", "s"), ("end", "s"))
     return Placed(changed.component, changed.to, f"amount*{_BOX}", numbers, is_share=changed.is_share)
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from types import MappingProxyType
 from typing import TypeVar
 
 import numpy as np
@@ -22,11 +23,13 @@ from diagnosis.faults.programme import held_inputs
 from diagnosis.laws.library import library
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
 from diagnosis.models.sensor_chain import read
+from diagnosis.models.systems.changed_run import Changed, placed_change
 from diagnosis.models.systems.fast import FastSystem
 from diagnosis.models.systems.fmu_layout import NotFast
 from diagnosis.models.systems.numbers import usual_numbers
 from diagnosis.models.systems.placed import Placed
 from diagnosis.models.systems.places import Fit, fits, places_of
+from diagnosis.models.systems.rig_faults import rig_terms
 from diagnosis.models.systems.sensors import reach_of, sensor_laws_of
 from diagnosis.models.systems.steps import MOST_SUBSTEPS, resolve
 from diagnosis.recording.conditions import scenario_of
@@ -68,9 +71,14 @@ _Asked = tuple[Point, int, int]
 _Course = tuple[bytes, tuple[tuple[Term, tuple[float, ...]], ...], int, int]
 
 
-def _row_of(given: tuple[Scenario, Sequence[Recording], Sequence[Free], Sequence[Fit]]) -> Callable[[_Asked], Array]:
+#: Scenario, recordings, numbers, laws, and what of the rig may have been another in recordings, by their numbers.
+_Given = tuple[Scenario, Sequence[Recording], Sequence[Free], Sequence[Fit], Mapping[int, Sequence[Changed]]]
+
+
+def _row_of(given: _Given) -> Callable[[_Asked], Array]:
     """What answers questions for residuals in another process."""
-    return SystemModel(*given)._row
+    scenario, recordings, free, found, changes = given
+    return SystemModel(scenario, recordings, free, found, changes=changes)._row
 
 
 class SystemModel(CompiledModel):
@@ -83,6 +91,7 @@ class SystemModel(CompiledModel):
         found: Laws at their places.
         batches: Makes runs of the co-simulation, where they are asked for.
         like: A model of the same scenario: what it finds of the steps that laws need holds here too, and the reverse.
+        changes: What of the rig may have been another for a while in recordings, by their numbers.
 
     Raises:
         NotFast: Only the co-simulation can simulate it.
@@ -98,6 +107,7 @@ class SystemModel(CompiledModel):
         found: Sequence[Fit],
         batches: Batches | None = None,
         like: SystemModel | None = None,
+        changes: Mapping[int, Sequence[Changed]] = MappingProxyType({}),
     ) -> None:
         super().__init__(scenario, recordings, free, (), batches)
         #: Steps of the integration in a macro-step that points with laws need, where these are more than without.
@@ -112,13 +122,20 @@ class SystemModel(CompiledModel):
         for fit in found:
             self._found[fit.term] = range(len(placed), len(placed) + len(fit.every)), fit
             placed += fit.every
-        self._fast = [FastSystem(s, placed) for s in self.scenarios]
+        #: What of the rig may have been another, by its number among what the compiled code of its recording adds.
+        self.rig: dict[Term, tuple[int, Changed]] = {}
+        own = [changes.get(n, ()) for n in range(len(recordings))]
+        self._fast = [FastSystem(s, [*placed, *map(placed_change, c)]) for s, c in zip(self.scenarios, own)]
+        for number, every in changes.items():
+            terms = rig_terms(every, self.scenarios[number], self.recordings, number)
+            self.rig |= {t: (len(placed) + n, c) for n, (t, c) in enumerate(zip(terms, every))}
         self._places = [_channel_places(s, r, f) for s, r, f in zip(self.scenarios, recordings, self._fast)]
         self._set_steps()
-        if self._substeps * max(fast.steps for fast in self._fast) < HELD_STEPS:
+        if self.can_try_rig_faults:
             self.inputs |= held_inputs(self.scenarios, recordings)
         place = self._batches.place
-        self._given = given = (scenario, self.recordings, self.free, list(found))
+        given: _Given = (scenario, self.recordings, self.free, list(found), dict(changes))
+        self._given = given
         #: Residuals of a recording at a point, by this process and by copies of this model in others.
         self._replicas = Replicas(_row_of, given, self._row, place.parallel - 1 if place.is_local else 0)
 
@@ -126,6 +143,11 @@ class SystemModel(CompiledModel):
     def can_be_searched_again(self) -> bool:
         """Whether its simulations have not many steps."""
         return self._steps_of_all < SEARCHED_AGAIN
+
+    @property
+    def can_try_rig_faults(self) -> bool:
+        """Whether hundreds of simulations of a recording take no minutes; see `HELD_STEPS`."""
+        return self._substeps * max(fast.steps for fast in self._fast) < HELD_STEPS
 
     @property
     def can_be_refitted(self) -> bool:
@@ -154,11 +176,14 @@ class SystemModel(CompiledModel):
                 fit = self._found[term][1]
                 for placed in fit.every:
                     added.setdefault(placed.component, []).append(placed.entry(fit.values_of(placed, values)))
+            elif term in self.rig and term.recording == number:
+                change = self.rig[term][1]
+                added.setdefault(change.component, []).append(placed_change(change).entry(values))
         return replace(found, added={name: tuple(entries) for name, entries in added.items()})
 
     def _numbers_at(self, point: Point, number: int | None) -> Changes:
         """What a point changes beside laws."""
-        faults = {t: v for t, v in point.terms.items() if t.recording is not None}
+        faults = {t: v for t, v in point.terms.items() if t.recording is not None and t not in self.rig}
         if faults:
             return super().changes_at(Point(point.base, faults), number)
         key = point.base.tobytes(), number
@@ -226,18 +251,19 @@ class SystemModel(CompiledModel):
     @cached_property
     def _with_earlier_inputs(self) -> list[SystemModel]:
         """The same with one input that was sampled half a row earlier in each recording, for each such input."""
-        scenario, recordings, free, found = self._given
+        scenario, recordings, free, found, changes = self._given
         moved = with_earlier_inputs(self.scenarios, recordings)
-        return [SystemModel(scenario, own, free, found, self._batches) for own in moved]
+        return [SystemModel(scenario, own, free, found, self._batches, changes=changes) for own in moved]
 
     @cached_property
     def _with_shorter_steps(self) -> SystemModel | None:
         """The same with macro-steps of half the length; None where no such run can be made."""
-        scenario, recordings, free, found = self._given
+        scenario, recordings, free, found, changes = self._given
         half = PhysicalValue(0.5 * scenario.time.macro_step.to("s"), "s")
         time = scenario.time.model_copy(update={"macro_step": half})
         try:
-            return SystemModel(scenario.model_copy(update={"time": time}), recordings, free, found, self._batches)
+            shorter = scenario.model_copy(update={"time": time})
+            return SystemModel(shorter, recordings, free, found, self._batches, changes=changes)
         except (NotFast, CompilerError, InputError):
             return None
 
@@ -326,6 +352,8 @@ class SystemModel(CompiledModel):
             if term in self._found:
                 own, fit = self._found[term]
                 laws |= {n: fit.values_of(placed, amounts) for n, placed in zip(own, fit.every)}
+            elif term in self.rig:
+                laws[self.rig[term][0]] = amounts
         fast = self._fast[number]
         fast.set_substeps(count)
         rows = fast.simulate(changes, laws)

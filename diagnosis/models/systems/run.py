@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing
 
+import numpy as np
 import xarray as xr
 
 from cosim.components import FmuComponent, ProgrammeComponent
@@ -78,9 +79,22 @@ class SystemRuns:
 
     def with_number(self, component: str, name: str, value: float) -> xr.Dataset | None:
         """Results with another value of a parameter, in its own unit; None where a unit fails or runs away."""
+        rows = self._rows_with(component, name, value)
+        return None if rows is None else dataset(self._system, rows)
+
+    def begin_with(self, component: str, name: str, value: float) -> tuple[xr.Dataset, Array] | None:
+        """The same, with the states of its FMU at the begin; None for a Co-Simulation FMU, which hides them."""
+        fmu = self._system.fmus[component]
+        rows = self._rows_with(component, name, value) if fmu.is_model_exchange else None
+        if rows is None:
+            return None
+        columns = [self._system.recorded[component, f"state {s}"] for s in fmu.states]
+        return dataset(self._system, rows), np.concatenate([np.zeros(0), *(rows[0, c] for c in columns)])
+
+    def _rows_with(self, component: str, name: str, value: float) -> Array | None:
         unit = self._system.fmus[component].unit.table.all[name].variable.unit
         rows = self._system.simulate(Changes({component: {name: PhysicalValue(value, unit)}}))
-        return None if rows is None else dataset(self._system, rows.values)
+        return None if rows is None else rows.values
 
     def with_courses(self, courses: Mapping[tuple[str, str], Course]) -> xr.Dataset | None:
         """Results with other courses of outputs of programmes, in their own units; None as in `with_number`.
