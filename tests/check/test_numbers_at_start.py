@@ -16,13 +16,18 @@ from evaluation.fmus.model import OdeModel
 from tests.systems.rigs import held, write_recording
 
 STEP, COUNT, NOISE = 0.1, 400, 0.5
-#: Fuel that reaches the flame late, so that no output jumps with an input; gas that it heats; metal that follows it.
+#: Fuel that reaches the flame late, so that no output jumps with an input; gas that it heats; metal that follows it;
+#: a probe that begins in the gas: its start is worked out from a number.
 BURNER = OdeModel(
     "burner",
     {"rise": (600.0, "K"), "late": (2.0, "s"), "slow": (8.0, "s"), "T_0": (640.0, "K")},
     {"fuel": "1"},
-    {"w": ("1", "0.5", "(fuel - w)/late"), "metal": ("K", "T_0", "(300 + rise*w - metal)/slow")},
-    {"gas": ("K", "300 + rise*w"), "wall": ("K", "metal")},
+    {
+        "w": ("1", "0.5", "(fuel - w)/late"),
+        "metal": ("K", "T_0", "(300 + rise*w - metal)/slow"),
+        "tip": ("K", "300 + 0.5*rise", "(300 + rise*w - tip)/0.3"),
+    },
+    {"gas": ("K", "300 + rise*w"), "wall": ("K", "metal"), "probe": ("K", "tip")},
 )
 SCENARIO = f"""\
 title: A burner
@@ -51,13 +56,15 @@ def starts(folder: Path, rise: float, metal: float, integrator: str) -> list[Dou
         fuel = np.concatenate([np.full(40, 0.5), np.repeat(rng.uniform(0.3, 0.9, (COUNT - 40) // 40), 40)])
 
         def rate(x: Array, u: float) -> Array:
-            return np.array([(u - x[0]) / 2.0, (300.0 + rise * x[0] - x[1]) / 8.0])
+            hot = 300.0 + rise * x[0]
+            return np.array([(u - x[0]) / 2.0, (hot - x[1]) / 8.0, (hot - x[2]) / 0.3])
 
-        course = held(rate, np.array([0.5, metal if run == 2 else 640.0]), fuel, STEP)
+        course = held(rate, np.array([0.5, metal if run == 2 else 640.0, 300.0 + 0.5 * rise]), fuel, STEP)
         gas = 300.0 + rise * course[:, 0] + NOISE * rng.standard_normal(COUNT)
         wall = course[:, 1] + NOISE * rng.standard_normal(COUNT)
-        columns = {"t": STEP * np.arange(COUNT), "u": fuel, "g": gas, "m": wall}
-        channels = {"burner.gas": ("g", "K", f"{NOISE} K"), "burner.wall": ("m", "K", f"{NOISE} K")}
+        probe = course[:, 2] + NOISE * rng.standard_normal(COUNT)
+        columns = {"t": STEP * np.arange(COUNT), "u": fuel, "gas": gas, "wall": wall, "probe": probe}
+        channels = {f"burner.{n}": (n, "K", f"{NOISE} K") for n in ("gas", "wall", "probe")}
         path = write_recording(folder / f"run_{run}", columns, {"valve.fuel": ("u", "1")}, channels)
         recordings.append(load_recording(path))
     doubts = check_recordings(load_scenario(str(folder / "scenario.yaml")), recordings)
@@ -70,7 +77,7 @@ def test_an_output_that_a_number_works_out_begins_nowhere_else(tmp_path: Path) -
 
 
 def test_of_hidden_states_it_is_not_known(tmp_path: Path) -> None:
-    assert {d.subject for d in starts(tmp_path, 660.0, 640.0, "internal")} == {"burner.gas"}
+    assert {d.subject for d in starts(tmp_path, 660.0, 640.0, "internal")} == {"burner.gas", "burner.probe"}
 
 
 @pytest.mark.parametrize("integrator", ["cvode", "internal"])

@@ -9,6 +9,8 @@ import numpy as np
 import xarray as xr
 
 from cosim.components import FmuComponent, ProgrammeComponent
+from cosim.fmu.units import is_known
+from cosim.formula import to_base
 from cosim.programme import Course
 from cosim.run import run
 from cosim.scenario import Scenario
@@ -83,13 +85,16 @@ class SystemRuns:
         return None if rows is None else dataset(self._system, rows)
 
     def begin_with(self, component: str, name: str, value: float) -> tuple[xr.Dataset, Array] | None:
-        """The same, with the states of its FMU at the begin; None for a Co-Simulation FMU, which hides them."""
+        """The same, with the states of its FMU at the begin [SI]; None for a Co-Simulation FMU, which hides them."""
         fmu = self._system.fmus[component]
         rows = self._rows_with(component, name, value) if fmu.is_model_exchange else None
         if rows is None:
             return None
-        columns = [self._system.recorded[component, f"state {s}"] for s in fmu.states]
-        return dataset(self._system, rows), np.concatenate([np.zeros(0), *(rows[0, c] for c in columns)])
+        states = [
+            in_base(float(rows[0, self._system.recorded[component, f"state {s}"].start]), fmu.units.get(s, "1"))
+            for s in fmu.states
+        ]
+        return dataset(self._system, rows), np.array(states)
 
     def _rows_with(self, component: str, name: str, value: float) -> Array | None:
         unit = self._system.fmus[component].unit.table.all[name].variable.unit
@@ -108,6 +113,14 @@ class SystemRuns:
             return None if rows is None else dataset(self._system, rows.values)
         finally:
             self._system.give(stated)
+
+
+def in_base(value: float, unit: str) -> float:
+    """A number in SI base units; as it is where its unit is none that is known."""
+    if not is_known(unit):
+        return value
+    factor, offset = to_base(unit)
+    return factor * value + offset
 
 
 def resolved(scenario: Scenario, laws: Sequence[Placed] = ()) -> tuple[FastSystem, Array | None]:
