@@ -42,7 +42,7 @@ def when(finding: Finding, most: int = 4, units: Units = IN_SI) -> str:
 
     Of a law with an instant, or with begin and end, that is when it acts; of any other, where it is seen.
     """
-    told = listed([units.span(a, b) for a, b in finding.intervals], most) or UNKNOWN
+    told = listed(units.spans(finding.intervals), most) or UNKNOWN
     onset = next((p for p in finding.parameters if p.name == "instant"), None)
     if onset is not None and finding.intervals:
         where = f" of {clean(finding.recording)}" if finding.recording else ""

@@ -130,9 +130,22 @@ class Units:
 
     def span(self, begin: float, end: float) -> str:
         """An interval of time or an instant, on the clock of a recording."""
-        scale = self.scale(end, "s")
-        first, last = ends(scale(begin), scale(end))
-        return f"{first} to {scale.text(end)}" if first != last else f"at {scale.text(end)}"
+        return self.spans([(begin, end)])[0]
+
+    def spans(self, intervals: Sequence[tuple[float, float]]) -> list[str]:
+        """Several of them, in the unit of the last one.
+
+        >>> Units(("ms", "s")).spans([(1.84, 76.7), (97.0, 120.0)])
+        ['1.84 to 76.7 s', '97.0 to 120 s']
+        """
+        if not intervals:
+            return []
+        scale = self.scale(max(end for _, end in intervals), "s")
+        found = []
+        for begin, end in intervals:
+            first, last = ends(scale(begin), scale(end))
+            found.append(f"{first} to {scale.text(end)}" if first != last else f"at {scale.text(end)}")
+        return found
 
 
 #: Where nothing is known of what the user wrote.
