@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -157,6 +157,17 @@ HELD = FaultLaw(
         "sensor_offset_in_interval": "another sensor of the same part decides",
     },
 )
+LEVEL = FaultLaw(
+    "input_level_in_interval",
+    "input that stood at another value for a while",
+    f"input = stated + share * box(t) * (level - stated); {_INTERVAL}",
+    "share",
+    {
+        "input_held_in_interval": "whether what is stated at its begin is that value decides",
+        "input_gain_in_interval": "a record of the input itself decides",
+        "sensor_offset_in_interval": "another sensor of the same part decides",
+    },
+)
 PARAMETER = FaultLaw(
     "parameter_in_interval",
     "parameter of the rig that was another for a while",
@@ -180,7 +191,7 @@ RATE = FaultLaw(
 #: What of the rig was another in one recording.
 OF_THE_RIG = (PARAMETER, RATE)
 #: Faults of inputs: what is stated was another, acted where nothing was stated, or stayed.
-OF_INPUTS = (INPUT, UNSTATED, HELD)
+OF_INPUTS = (INPUT, UNSTATED, HELD, LEVEL)
 #: Faults whose course a law of the rig may have as well: what an input does, what comes slowly, and what comes late.
 AS_A_LAW = (*OF_INPUTS, *OF_THE_RIG, DRIFT, SLOWER, LATE)
 #: Faults that may last for a whole recording: what they do there is no bias, and other recordings are without it.
@@ -189,6 +200,11 @@ LASTING = (DRIFT, SLOWER, LATE)
 OF_TIME = (SLOWER, LATE)
 #: Strength of an input that stayed.
 STAYED = TermParameter("share", "1", 0.0, 1.0, (1.0,), is_switch=True, meaning="factor 0 or 1: whether it stayed")
+#: Values at which an input may have stood that are told apart: -2 log of the prior odds of one against all is the price
+#: of the best of them.
+LEVELS = 20
+#: How far beyond what is stated it may have stood, as a share of the range of that.
+BEYOND = 1.0
 #: Stretches in which an input is stated as zero of which each may be wrong; of more the longest.
 STRETCHES = 4
 #: Share by which an input is off that is no finding: laboratory supplies hold what is set on them to about 1 %. What is
@@ -227,6 +243,29 @@ def added_rate(unit: str, usual: float) -> TermParameter:
     most = MOST_RATES * usual
     what = "what was added to the derivative in the interval"
     return TermParameter("rate", unit, -most, most, (0.1 * usual,), negligible=ACCURACY * usual, meaning=what)
+
+
+def level_of(unit: str, least: float, most: float) -> TermParameter:
+    """The value at which an input stood.
+
+    Args:
+        unit: SI unit of the input.
+        least: Smallest stated value.
+        most: Largest stated value.
+    """
+    wide = BEYOND * (most - least)
+    lower, upper = least - wide, most + wide
+    if least >= 0.0:
+        lower = max(lower, 0.0)
+    what = "value at which the input stood"
+    return TermParameter("level", unit, lower, upper, (0.5 * (least + most),), meaning=what, is_reading=True)
+
+
+def level_term(label: str, level: TermParameter, span: Span, recording: int) -> Term:
+    """An input that stood at another value, as the search sees it; see `fault_term`."""
+    term = fault_term(LEVEL, label, STAYED, span, recording)
+    price = term.price + 2.0 * float(np.log(LEVELS))
+    return replace(term, parameters=(*term.parameters, level), price=price)
 
 
 def lag_time(step: float, longest: float) -> TermParameter:

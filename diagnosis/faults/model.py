@@ -13,6 +13,7 @@ from diagnosis.faults.law import (
     FEWEST,
     HELD,
     LATE,
+    LEVEL,
     LONGEST_LAG,
     OCCASIONS,
     OF_INPUTS,
@@ -26,11 +27,12 @@ from diagnosis.faults.law import (
     FaultLaw,
     clock_offset,
     fault_term,
+    is_one_of,
     lag_time,
     sensor_gain,
 )
 from diagnosis.faults.readings import ACTS, Readings, readings_of
-from diagnosis.faults.scan import held_scores, input_scores, sensor_scores
+from diagnosis.faults.scan import held_scores, input_scores, level_scores, sensor_scores
 from diagnosis.models.protocol import DiagnosisModel, Effect, Labelled, Scaled, Spot, unscaled
 from diagnosis.models.wrappers.wrapped import WrappedModel
 from diagnosis.recording.equal_readings import FEWEST_EQUAL, ends_of_runs
@@ -73,6 +75,8 @@ class FaultyModel(WrappedModel):
         self.readings = readings_of(inner)
         #: What inputs that stayed change, see `diagnosis.faults.scan.held_scores`.
         self._held: dict[Term, Array] = {}
+        #: What inputs at two values change in each piece, see `diagnosis.faults.scan.level_scores`.
+        self._levels: dict[Term, Array] = {}
         #: Faults of sensors with the channel of each.
         self.sensor_terms: dict[Term, Readings] = {}
         for readings in self.readings:
@@ -206,13 +210,22 @@ class FaultyModel(WrappedModel):
             rows = self.residuals([base.point, *points])
             return np.asarray(rows[1:] - rows[0])
 
+        def at(term: Term, values: Array) -> Array:
+            rows = self.residuals([base.point, *(base.point.plus(term, tuple(map(float, v))) for v in values)])
+            return np.asarray(rows[1:] - rows[0])
+
         own = {r: self._residuals_of(r) for r in {t.recording for t in terms}}
         pieces = PIECES if self.is_fast else FEW_PIECES
         held = [(t, own[t.recording]) for t in terms if t.identifier == HELD.identifier]
-        others = [(t, own[t.recording]) for t in terms if t.identifier != HELD.identifier]
+        levels = [(t, own[t.recording]) for t in terms if t.identifier == LEVEL.identifier]
+        others = [(t, own[t.recording]) for t in terms if not is_one_of(t.identifier, (HELD, LEVEL))]
         has_time = self.is_fast or self.can_be_searched_again
         found = input_scores(projection, scaled, others, slopes, pieces, ROUNDS if has_time else 0)
-        return found.joined(held_scores(base, projection, scaled, held, moved, self._held)) if held else found
+        if held:
+            found = found.joined(held_scores(base, projection, scaled, held, moved, self._held))
+        if levels:
+            found = found.joined(level_scores(base, projection, scaled, levels, at, (pieces, self._levels)))
+        return found
 
     def _residuals_of(self, recording: int | None) -> slice:
         every = [r.own for r in self.readings if r.recording == recording]
@@ -227,7 +240,7 @@ class FaultyModel(WrappedModel):
         for term, values in point.terms.items():
             if term.recording is None:
                 continue
-            strength, begin, end = values
+            strength, begin, end, *more = values
             edges = self._edges(term)
             places = [int(np.argmin(np.abs(edges - v))) for v in (begin, end)]
             known = {tuple(places)}
@@ -237,7 +250,7 @@ class FaultyModel(WrappedModel):
             for a, b in (*_intervals_near(places[0], places[1], len(edges) - 1), whole):
                 if a < b and (a, b) not in known:
                     known.add((a, b))
-                    yield point.plus(term, (strength, float(edges[a]), float(edges[b])))
+                    yield point.plus(term, (strength, float(edges[a]), float(edges[b]), *more))
             yield from self._standing_still(point, term, (places[0], places[1]))
 
     def _standing_still(self, point: Point, term: Term, interval: tuple[int, int]) -> Iterator[Point]:

@@ -11,16 +11,19 @@ from cosim.components import ProgrammeComponent, ProgrammeOutput, nanoseconds
 from cosim.formula import to_base
 from cosim.scenario import Scenario
 from cosim.unit.protocol import AnyArray, Array
-from cosim.unit.quantity import PhysicalValue
+from cosim.unit.quantity import PhysicalValue, conversion
 from diagnosis.faults.law import (
     HELD,
     INPUT,
+    LEVEL,
     STAYED,
     Span,
     added,
     fault_term,
     gain,
     is_zero,
+    level_of,
+    level_term,
     occasion,
     unstated_terms,
     zero_stretches,
@@ -46,6 +49,7 @@ class InputChange:
         is_added: Whether it acts where nothing is stated.
         is_everywhere: Whether it is added to whatever is stated.
         is_held: Whether the amount is a share of the way back to what is stated where it begins.
+        is_level: Whether the amount is the value that acts in the place of what is stated.
     """
 
     amount: float
@@ -54,11 +58,12 @@ class InputChange:
     is_added: bool = False
     is_everywhere: bool = False
     is_held: bool = False
+    is_level: bool = False
 
-    def key(self) -> tuple[str, str, str, bool, bool, bool]:
+    def key(self) -> tuple[str, str, str, bool, bool, bool, bool]:
         """Every number to its last bit."""
         numbers = self.amount.hex(), self.begin.hex(), self.end.hex()
-        return *numbers, self.is_added, self.is_everywhere, self.is_held
+        return *numbers, self.is_added, self.is_everywhere, self.is_held, self.is_level
 
     def shares(self, low: Array, step: float) -> Array:
         """Share of each macro-step that lies in the interval, shape (steps,).
@@ -83,6 +88,8 @@ class InputChange:
         if self.is_held:
             stays = stated[inside[0]] if len(inside) else stated
             return np.asarray(self.amount * shares * (stays - stated))
+        if self.is_level:
+            return np.asarray(shares * (self.amount - stated))
         if not self.is_added:
             return np.asarray(stated * self.amount * shares)
         if self.is_everywhere:
@@ -92,7 +99,10 @@ class InputChange:
 
 def input_change(term: Term, values: Sequence[float], given: ProgrammeOutput) -> InputChange:
     """What a term of `programme_inputs` does to its output."""
-    amount, begin, end = values
+    amount, begin, end, *more = values
+    if term.identifier == LEVEL.identifier:
+        factor, offset = conversion(term.parameters[-1].unit, given.unit)
+        return InputChange(factor * more[0] + offset, begin, end, is_level=True)
     if term.identifier == INPUT.identifier:
         return InputChange(amount, begin, end)
     if term.identifier == HELD.identifier:
@@ -130,10 +140,23 @@ def held_inputs(scenarios: Sequence[Scenario], recordings: Sequence[Recording]) 
     }
 
 
+def level_inputs(scenarios: Sequence[Scenario], recordings: Sequence[Recording]) -> dict[Term, tuple[str, str]]:
+    """The same of outputs, temperatures too, that may have stood at a value that is not stated."""
+    found = {}
+    for number, span, label, end, given in _outputs(scenarios, recordings, has_temperatures=True):
+        values = _values(given)
+        if values.ndim == 1 and np.ptp(values) > 0.0:
+            unit = si_unit(given.unit)
+            factor, offset = conversion(given.unit, unit)
+            least, most = sorted(factor * float(v) + offset for v in (values.min(), values.max()))
+            found[level_term(label, level_of(unit, least, most), span, number)] = end
+    return found
+
+
 def _outputs(
-    scenarios: Sequence[Scenario], recordings: Sequence[Recording]
+    scenarios: Sequence[Scenario], recordings: Sequence[Recording], has_temperatures: bool = False
 ) -> Iterator[tuple[int, Span, str, tuple[str, str], ProgrammeOutput]]:
-    """Outputs of programmes that are no temperature: number of the recording, when, place, component and name."""
+    """Outputs of programmes, temperatures where asked: number of the recording, when, place, component and name."""
     for number, (scenario, recording) in enumerate(zip(scenarios, recordings)):
         times = np.unique(np.concatenate([c.times for c in recording.channels.values()]))
         span = Span(scenario.time.start.to("s"), float(times[-1]), len(times))
@@ -141,7 +164,7 @@ def _outputs(
             if not isinstance(component, ProgrammeComponent) or not span.begin < span.end:
                 continue
             for output, given in component.outputs.items():
-                if given.unit not in _TEMPERATURES:
+                if has_temperatures or given.unit not in _TEMPERATURES:
                     label = occasion(f"{name}.{output}", [r.title for r in recordings], number)
                     yield number, span, label, (name, output), given
 

@@ -26,6 +26,7 @@ from diagnosis.faults.readings import ACTS, Readings
 from diagnosis.models.protocol import Scaled
 from diagnosis.recording.equal_readings import FEWEST_EQUAL
 from diagnosis.search.fit import Fit
+from diagnosis.search.posterior import HUBER
 from diagnosis.search.problem import Term
 from diagnosis.search.score import Projection, Score, Scoring
 from diagnosis.search.switches import costs_of
@@ -265,6 +266,80 @@ def held_scores(
         if np.isfinite(gains[best]):
             found.score(term, float(gains[best]), (1.0, *map(float, intervals[tried[best]])))
     return found.scoring()
+
+
+def level_scores(
+    base: Fit,
+    projection: Projection,
+    scaled: Scaled,
+    terms: Sequence[tuple[Term, slice]],
+    at: Callable[[Term, Array], Array],
+    known: tuple[int, dict[Term, Array]],
+) -> Scoring:
+    """Scores of inputs that stood at another value; there are no nulls of it.
+
+    In each piece the input is simulated at two values, and what lies between and beyond is a straight line; pieces add
+    up. The best value follows for every interval, and the best intervals are simulated.
+
+    Args:
+        base: Converged fit.
+        projection: Of that fit.
+        scaled: What wrapping models make of changes of residuals.
+        terms: Faults with the residuals of their recordings.
+        at: Changes of all residuals by a term, of its values in shape (points, 4) to (points, residuals).
+        known: Into how many pieces a recording is cut, and changes of its recording's residuals by a term at both
+            values in every piece, at an earlier fit, shape (2, pieces, residuals); filled where it is without them.
+    """
+    pieces, rows_of = known
+    found = _Collected(projection.draws)
+    for term, own in terms:
+        _, begin, _, level = term.parameters
+        edges = np.linspace(begin.lower, begin.upper, pieces + 1)
+        two = np.array([level.lower, level.upper])
+        if term not in rows_of:
+            values = np.array([(1.0, a, b, v) for v in two for a, b in pairwise(edges.tolist())])
+            rows_of[term] = at(term, values)[:, own].reshape(2, pieces, -1)
+        low, high = (scaled(r, own) for r in rows_of[term])
+        if not (np.isfinite(low).all() and np.isfinite(high).all()):
+            continue
+        slope = (high - low) / (two[1] - two[0])
+        best = _best_levels(base.residuals[own], low - two[0] * slope, slope, (level.lower, level.upper))
+        tried = np.array([(1.0, edges[i], edges[j], v) for i, j, v in best])
+        changes = scaled(at(term, tried)[:, own], own)
+        rows = np.repeat(base.residuals[None], len(tried), axis=0)
+        rows[:, own] += changes
+        gains = base.cost - np.array(costs_of(rows, base, [base.point] * len(tried)))
+        gains = np.where(np.isfinite(gains), gains, -np.inf)
+        top = int(np.argmax(gains))
+        found.tried += pieces * (pieces + 1) // 2
+        if np.isfinite(gains[top]):
+            found.score(term, float(gains[top]), tuple(tried[top].tolist()))
+    return found.scoring()
+
+
+def _best_levels(
+    residuals: Array, constant: Array, slope: Array, bounds: tuple[float, float]
+) -> list[tuple[int, int, float]]:
+    """Intervals that leave least: first piece, piece after the last, value within its bounds.
+
+    Args:
+        residuals: Shape (residuals,).
+        constant: What the value 0 changes in each piece, shape (pieces, residuals).
+        slope: What each unit of the value changes.
+        bounds: Of the value.
+    """
+    count = len(slope)
+    sums = [np.vstack([np.zeros(slope.shape[1]), np.cumsum(rows, axis=0)]) for rows in (constant, slope)]
+    found = []
+    for i in range(count):
+        for j in range(i + 1, count + 1):
+            rest, direction = residuals + sums[0][j] - sums[0][i], sums[1][j] - sums[1][i]
+            size = float(direction @ direction)
+            value = float(np.clip(-(direction @ rest) / size, *bounds)) if size > 0.0 else bounds[0]
+            left = rest + value * direction
+            clipped = np.minimum(np.abs(left), HUBER)
+            found.append((float(np.sum(clipped * (2.0 * np.abs(left) - clipped))), i, j, value))
+    return [(i, j, value) for _, i, j, value in sorted(found)[:HELD_AGAIN]]
 
 
 def _held_intervals(term: Term) -> Array:

@@ -68,7 +68,7 @@ def hidden_fault(model: DiagnosisModel, point: Point, term: Term) -> str:
     """
     if term.recording is None:
         return ""
-    _, begin, end = point.terms[term]
+    _, begin, end = point.terms[term][:3]
     inner = model.plain
     left = raw_residuals(inner, point)
     change = raw_residuals(inner, point.without(term)) - left

@@ -19,7 +19,7 @@ from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
 from cosim.unit.quantity import PhysicalValue, conversion
-from diagnosis.faults.programme import held_inputs
+from diagnosis.faults.programme import held_inputs, level_inputs
 from diagnosis.laws.library import library
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
 from diagnosis.models.sensor_chain import read
@@ -132,7 +132,7 @@ class SystemModel(CompiledModel):
         self._places = [_channel_places(s, r, f) for s, r, f in zip(self.scenarios, recordings, self._fast)]
         self._set_steps()
         if self.can_try_rig_faults:
-            self.inputs |= held_inputs(self.scenarios, recordings)
+            self.inputs |= held_inputs(self.scenarios, recordings) | level_inputs(self.scenarios, recordings)
         place = self._batches.place
         given: _Given = (scenario, self.recordings, self.free, list(found), dict(changes))
         self._given = given
