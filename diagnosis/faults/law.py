@@ -200,6 +200,8 @@ LASTING = (DRIFT, SLOWER, LATE)
 OF_TIME = (SLOWER, LATE)
 #: Strength of an input that stayed.
 STAYED = TermParameter("share", "1", 0.0, 1.0, (1.0,), is_switch=True, meaning="factor 0 or 1: whether it stayed")
+#: Strength of an input that stood at another value.
+STOOD = replace(STAYED, meaning="factor 0 or 1: whether it stood there")
 #: Values at which an input may have stood that are told apart: -2 log of the prior odds of one against all is the price
 #: of the best of them.
 LEVELS = 20
@@ -263,7 +265,7 @@ def level_of(unit: str, least: float, most: float) -> TermParameter:
 
 def level_term(label: str, level: TermParameter, span: Span, recording: int) -> Term:
     """An input that stood at another value, as the search sees it; see `fault_term`."""
-    term = fault_term(LEVEL, label, STAYED, span, recording)
+    term = fault_term(LEVEL, label, STOOD, span, recording)
     price = term.price + 2.0 * float(np.log(LEVELS))
     return replace(term, parameters=(*term.parameters, level), price=price)
 
