@@ -205,11 +205,6 @@ class FaultyModel(WrappedModel):
             tasks = [(term, (step, float(a), float(b))) for a, b in intervals]
             return strength_slopes(self, base.point, None, tasks)
 
-        def moved(term: Term, intervals: Array) -> Array:
-            points = [base.point.plus(term, (1.0, float(a), float(b))) for a, b in intervals]
-            rows = self.residuals([base.point, *points])
-            return np.asarray(rows[1:] - rows[0])
-
         def at(term: Term, values: Array) -> Array:
             rows = self.residuals([base.point, *(base.point.plus(term, tuple(map(float, v))) for v in values)])
             return np.asarray(rows[1:] - rows[0])
@@ -222,7 +217,7 @@ class FaultyModel(WrappedModel):
         has_time = self.is_fast or self.can_be_searched_again
         found = input_scores(projection, scaled, others, slopes, pieces, ROUNDS if has_time else 0)
         if held:
-            found = found.joined(held_scores(base, projection, scaled, held, moved, self._held))
+            found = found.joined(held_scores(base, projection, scaled, held, at, self._held))
         if levels:
             found = found.joined(level_scores(base, projection, scaled, levels, at, (pieces, self._levels)))
         return found

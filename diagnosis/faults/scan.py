@@ -228,7 +228,7 @@ def held_scores(
     projection: Projection,
     scaled: Scaled,
     terms: Sequence[tuple[Term, slice]],
-    moved: Callable[[Term, Array], Array],
+    at: Callable[[Term, Array], Array],
     known: dict[Term, Array],
 ) -> Scoring:
     """Scores of inputs that stayed from some instant on, each of many intervals simulated; there are no nulls of it.
@@ -240,7 +240,7 @@ def held_scores(
         projection: Of that fit.
         scaled: What wrapping models make of changes of residuals.
         terms: Faults with the residuals of their recordings.
-        moved: Changes of all residuals by a term in intervals, shape (intervals, 2) to (intervals, residuals).
+        at: Changes of all residuals by a term, of its values in shape (points, 3) to (points, residuals).
         known: Changes of its recording's residuals by a term in every interval, at an earlier fit; filled where it is
             without them.
     """
@@ -248,19 +248,14 @@ def held_scores(
     for term, own in terms:
         intervals = _held_intervals(term)
 
-        def gains_of(changes: Array, own: slice = own) -> Array:
-            rows = np.repeat(base.residuals[None], len(changes), axis=0)
-            rows[:, own] += scaled(changes, own)
-            gains = base.cost - np.array(costs_of(rows, base, [base.point] * len(changes)))
-            return np.where(np.isfinite(gains), gains, -np.inf)
-
         tried = np.arange(len(intervals))
         if term in known:
-            tried = np.argsort(-gains_of(known[term].astype(np.float64)), kind="stable")[:HELD_AGAIN]
-        changes = moved(term, intervals[tried])[:, own]
+            before = _gains(base, own, scaled(known[term].astype(np.float64), own))
+            tried = np.argsort(-before, kind="stable")[:HELD_AGAIN]
+        changes = at(term, np.column_stack([np.ones(len(tried)), intervals[tried]]))[:, own]
         with np.errstate(over="ignore"):  # of a run that goes away; its gain is none
             known.setdefault(term, changes.astype(np.float32))
-        gains = gains_of(changes)
+        gains = _gains(base, own, scaled(changes, own))
         best = int(np.argmax(gains))
         found.tried += len(intervals)
         if np.isfinite(gains[best]):
@@ -305,16 +300,26 @@ def level_scores(
         slope = (high - low) / (two[1] - two[0])
         best = _best_levels(base.residuals[own], low - two[0] * slope, slope, (level.lower, level.upper))
         tried = np.array([(1.0, edges[i], edges[j], v) for i, j, v in best])
-        changes = scaled(at(term, tried)[:, own], own)
-        rows = np.repeat(base.residuals[None], len(tried), axis=0)
-        rows[:, own] += changes
-        gains = base.cost - np.array(costs_of(rows, base, [base.point] * len(tried)))
-        gains = np.where(np.isfinite(gains), gains, -np.inf)
+        gains = _gains(base, own, scaled(at(term, tried)[:, own], own))
         top = int(np.argmax(gains))
         found.tried += pieces * (pieces + 1) // 2
         if np.isfinite(gains[top]):
             found.score(term, float(gains[top]), tuple(tried[top].tolist()))
     return found.scoring()
+
+
+def _gains(base: Fit, own: slice, changes: Array) -> Array:
+    """What changes of a recording's residuals gain, without another fit; -inf where one is not finite.
+
+    Args:
+        base: Converged fit.
+        own: Residuals of the recording.
+        changes: As wrapping models scale them, shape (points, residuals of the recording).
+    """
+    rows = np.repeat(base.residuals[None], len(changes), axis=0)
+    rows[:, own] += changes
+    gains = base.cost - np.array(costs_of(rows, base, [base.point] * len(changes)))
+    return np.where(np.isfinite(gains), gains, -np.inf)
 
 
 def _best_levels(
