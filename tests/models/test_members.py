@@ -159,7 +159,8 @@ def test_faults_are_of_a_recording_with_begin_and_end(model: DiagnosisModel) -> 
     assert not faults or set(inputs) <= set(faults)
     for term in (*faults, *inputs):
         assert term.recording in range(len(model.runs))
-        assert [p.is_instant for p in term.parameters] == [False, True, True]
+        assert [p.is_instant for p in term.parameters[:3]] == [False, True, True]
+        assert not any(p.is_instant for p in term.parameters[3:])
     assert not set(faults) & set(model.terms())
 
 
