@@ -171,5 +171,14 @@ def _dimension_text(dimension: Any) -> str:
 
 def to_base(unit: str) -> tuple[float, float]:
     """(factor, offset) to SI base units: base value = factor * value + offset."""
+    return conversion(unit, base_unit(unit))
+
+
+def base_unit(unit: str) -> str:
+    """SI base units of the same dimension.
+
+    >>> base_unit("kg/h"), base_unit("%")
+    ('kilogram / second', '1')
+    """
     base = registry().Quantity(1.0, parse_unit(unit)).to_base_units().units
-    return conversion(unit, f"{base}" if str(base) != "dimensionless" else "1")
+    return f"{base}" if str(base) != "dimensionless" else "1"

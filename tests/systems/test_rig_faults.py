@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from cosim.formula import to_base
 from cosim.run import run
 from cosim.scenario import load_scenario
 from cosim.unit.protocol import Array
@@ -17,6 +18,7 @@ from diagnosis.judge.diagnosis import Diagnosis, Verdict
 from diagnosis.judge.of_a_day import hidden_fault
 from diagnosis.models.build import model_of, with_rig_faults
 from diagnosis.models.cosimulation.model import ClosedLoopModel
+from diagnosis.models.systems.changed_run import Changed
 from diagnosis.recording.recording import load_recording
 from diagnosis.search.problem import Point
 from diagnosis.search.search import Settings
@@ -122,6 +124,13 @@ def test_what_is_fitted_is_what_cosim_run_gives(tmp_path: Path) -> None:
         before = model.predict(Point(zero), 1)[index]
         assert np.max(np.abs(model.predict(point, 1)[index] - before)) > 1.0
         assert model.predict(point, 0)[index] == pytest.approx(model.predict(Point(zero), 0)[index], abs=1e-9)
+
+
+@pytest.mark.parametrize("unit", ["K", "degC", "rpm", "bar", "1", "", "kg/h", "1/h", "mol/L", "min", "uL/min", "kJ"])
+def test_an_amount_is_in_units_that_are_not_converted_again(unit: str) -> None:
+    """What is fitted, and what the check tells, is counted in SI: 3600 times less of a flow in kg/h would be told."""
+    change = Changed("rig", "state", unit, None, 1.0)
+    assert to_base(change.unit_of_amount) == (1.0, 0.0)
 
 
 def test_a_change_over_the_whole_recording_is_not_one_of_a_while(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from cosim.formula import to_base
+from cosim.formula import base_unit, to_base
 from cosim.scenario import Scenario
 from cosim.unit.errors import InputError
 from cosim.unit.protocol import Array
@@ -51,8 +51,9 @@ class Changed:
 
     @property
     def unit_of_amount(self) -> str:
-        """SI unit of an amount."""
+        """SI unit of an amount; base units where nobody writes another that is as large."""
         own = si_unit(self.unit or "1")
+        own = own if to_base(own) == (1.0, 0.0) else base_unit(self.unit)
         return "1" if self.is_share else "1/s" if own == "1" else f"({own})/s"
 
     @property
