@@ -234,17 +234,16 @@ def _folder(scenario: str, out: Path | None, resume: bool, overwrite: bool) -> R
 
 def run_into(scenario: Scenario, folder: RunFolder, resume: bool = False, csv: bool = False) -> None:
     """Run with a progress bar; a run that stops early ends the program with its exit code."""
-    from cosim.observers.ranges import outside_ranges
     from cosim.progress import progress_bar
     from cosim.run import RunStopped, record
 
     try:
         with progress_bar(scenario.title) as on_progress:
             recorded = record(scenario, folder.path, resume, on_progress, csv, folder.overwrites)
-        _warn(outside_ranges(recorded.trace))
+        _warn(recorded.outside)
     except RunStopped as stopped:
         print(f"stopped: {printable(str(stopped.reason))}", file=sys.stderr)
-        _warn(outside_ranges(stopped.recorded.trace))
+        _warn(stopped.recorded.outside)
         if folder.summary.is_file():
             print(f"  kept: {folder.results}", file=sys.stderr)
         if stopped.is_interrupt:

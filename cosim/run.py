@@ -86,10 +86,12 @@ class Recorded:
     Args:
         trace: Values and times.
         attributes: Title, status, wall times, energy balance.
+        outside: What left its declared range, a sentence each.
     """
 
     trace: Trace
     attributes: Mapping[str, Any]
+    outside: Sequence[str]
 
     def dataset(self) -> xr.Dataset:
         """As `run` returns it."""
@@ -331,7 +333,7 @@ def _run_to_end(
     except KeyboardInterrupt:
         reason, is_interrupt = f"interrupted at t = {seconds(state.now):.6g} s", True
     outside = outside_ranges(state.trace)
-    recorded = Recorded(state.trace, _attributes(state, reason, outside))
+    recorded = Recorded(state.trace, _attributes(state, reason, outside), outside)
     if folder is not None:
         try:
             folder.write_results(state.trace, recorded.attributes, _summary(state, reason) | {"outside_range": outside})

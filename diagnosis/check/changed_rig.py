@@ -31,6 +31,7 @@ from diagnosis.check.input_runs import is_quick, left_by, parts_of, readings_of
 from diagnosis.check.odd_one_out import as_explained, comparable, in_words, left_beside, scaled_left
 from diagnosis.check.straight_line import freed, line_basis
 from diagnosis.check.timing import percent
+from diagnosis.faults.law import LEAST_SHARE
 from diagnosis.judge.diagnosis import Doubt
 from diagnosis.judge.doubts import ODD
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
@@ -50,8 +51,6 @@ FITTED = 6
 EACH = 40
 #: Changes that are told; of more that explain the recording the first are.
 MOST = 3
-#: Share of a parameter above which it stays: an equation may not bear that it changes its sign.
-LEAST_SHARE = -0.95
 
 
 @dataclass(frozen=True)

@@ -9,16 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import closing
+from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 
 from cosim.unit.errors import InputError
+from cosim.unit.protocol import Array
 from diagnosis.check.beside import Beside, Compared
 from diagnosis.check.input_runs import is_quick
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
+from diagnosis.models.systems.fast import in_base
 from diagnosis.models.systems.fmu_layout import NotFast
-from diagnosis.models.systems.run import SystemRuns, in_base
+from diagnosis.models.systems.run import SystemRuns
 from diagnosis.recording.series import series_of
 
 #: Share by which each number is moved.
@@ -48,20 +51,35 @@ def moved_by_numbers(one: Compared, channels: Sequence[Beside]) -> frozenset[str
 
 def _moved(system: SystemRuns, one: Compared, channels: Sequence[Beside]) -> frozenset[str]:
     found: set[str] = set()
+    as_stated: dict[str, _Begin | None] = {}
     for component, name, unit, value in list(system.numbers()):
-        values = value, (1.0 + MOVED) * value
-        runs = [system.begin_with(component, name, v) for v in values]
-        if value == 0.0 or runs[0] is None or runs[1] is None:
+        if value == 0.0:
             continue
-        (before, states), (after, others) = runs[0], runs[1]
-        own = in_base(values[1], unit) - in_base(values[0], unit)
-        if np.any(np.isclose(others - states, own, rtol=SAME, atol=0.0)):
+        other = (1.0 + MOVED) * value
+        if component not in as_stated:  # any of its numbers, as it is, gives the same run
+            as_stated[component] = _begin(system.begin_with(component, name, value), one, channels)
+        before, after = as_stated[component], _begin(system.begin_with(component, name, other), one, channels)
+        if before is None or after is None:
             continue
-        firsts = [[_first(r, one, b) for b in channels] for r in (before, after)]
-        found |= {b.channel.name for b, x, y in zip(channels, *firsts) if abs(y - x) > b.floor}
+        own = in_base(other, unit) - in_base(value, unit)
+        if np.any(np.isclose(after.states - before.states, own, rtol=SAME, atol=0.0)):
+            continue
+        pairs = zip(channels, before.channels, after.channels)
+        found |= {b.channel.name for b, x, y in pairs if abs(y - x) > b.floor}
     return frozenset(found)
 
 
-def _first(results: xr.Dataset, one: Compared, beside: Beside) -> float:
-    """First simulated value of a channel [SI]."""
-    return float(series_of(results, beside.channel.target, one.recording.path / "recording.yaml").values[0])
+@dataclass(frozen=True)
+class _Begin:
+    """First values [SI] of channels, and of the states of one FMU."""
+
+    channels: tuple[float, ...]
+    states: Array
+
+
+def _begin(run: tuple[xr.Dataset, Array] | None, one: Compared, channels: Sequence[Beside]) -> _Begin | None:
+    if run is None:
+        return None
+    results, states = run
+    source = one.recording.path / "recording.yaml"
+    return _Begin(tuple(float(series_of(results, b.channel.target, source).values[0]) for b in channels), states)

@@ -212,8 +212,8 @@ STRETCHES = 4
 #: Share by which an input is off that is no finding: laboratory supplies hold what is set on them to about 1 %. What is
 #: smaller than that of the largest value of an input is stated as zero.
 ACCURACY = 0.01
-
-
+#: Shares by which a parameter may have been another: an equation may not bear that it changes its sign.
+LEAST_SHARE, MOST_SHARE = -0.95, 4.0
 #: Largest rate that is tried, in rates at which a state moves by a fifth of its range in the recording.
 MOST_RATES = 100.0
 #: Share by which the gain of a sensor is off that is no finding.
@@ -232,7 +232,7 @@ def gain(
 def parameter_share() -> TermParameter:
     """Strength of a parameter that was another: from a twentieth of what is stated to five times it."""
     what = "change of the parameter in the interval, as a share of what is stated"
-    return TermParameter("share", "1", -0.95, 4.0, (0.02,), negligible=ACCURACY, meaning=what)
+    return TermParameter("share", "1", LEAST_SHARE, MOST_SHARE, (0.02,), negligible=ACCURACY, meaning=what)
 
 
 def added_rate(unit: str, usual: float) -> TermParameter:

@@ -153,13 +153,18 @@ def level_inputs(scenarios: Sequence[Scenario], recordings: Sequence[Recording])
     return found
 
 
+def span_of(scenario: Scenario, recording: Recording) -> Span:
+    """When a fault of a recording may be: from the begin of its simulation to its last reading."""
+    times = np.unique(np.concatenate([c.times for c in recording.channels.values()]))
+    return Span(scenario.time.start.to("s"), float(times[-1]), len(times))
+
+
 def _outputs(
     scenarios: Sequence[Scenario], recordings: Sequence[Recording], has_temperatures: bool = False
 ) -> Iterator[tuple[int, Span, str, tuple[str, str], ProgrammeOutput]]:
     """Outputs of programmes, temperatures where asked: number of the recording, when, place, component and name."""
     for number, (scenario, recording) in enumerate(zip(scenarios, recordings)):
-        times = np.unique(np.concatenate([c.times for c in recording.channels.values()]))
-        span = Span(scenario.time.start.to("s"), float(times[-1]), len(times))
+        span = span_of(scenario, recording)
         for name, component in scenario.components.items():
             if not isinstance(component, ProgrammeComponent) or not span.begin < span.end:
                 continue

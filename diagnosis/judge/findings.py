@@ -11,7 +11,7 @@ from diagnosis.candidates.candidate import CandidateTerm
 from diagnosis.faults.law import AS_A_LAW, FOR_A_WHILE, INPUT, OF_INPUTS, is_one_of
 from diagnosis.judge.acceptance import Accepted
 from diagnosis.judge.diagnosis import Finding, Member, Standing, class_places
-from diagnosis.judge.doubts import MEASURED, accuses, is_of_an_interval, is_physics
+from diagnosis.judge.doubts import MEASURED, accuses, is_physics
 from diagnosis.judge.estimates import estimated, holding_both, widening
 from diagnosis.judge.events import event_of, since
 from diagnosis.judge.extent import channels_of, effect_of, elements_of, times_of, within_readings
@@ -140,7 +140,7 @@ def in_parts(finding: Finding, every: Sequence[Finding], hidden: Sequence[str]) 
 
     def is_part(one: Finding) -> bool:
         is_in_an_fmu = "." in one.place and one.unit not in MEASURED
-        return is_in_an_fmu and one.standing is Standing.UNNAMED and not is_of_an_interval(one)
+        return is_in_an_fmu and one.standing is Standing.UNNAMED and not is_one_of(one.effect, OF_INPUTS)
 
     own = finding.place.split(".")[0]
     others = {f.place for f in every if is_part(f) and f.place.split(".")[0] == own}

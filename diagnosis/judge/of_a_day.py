@@ -19,6 +19,15 @@ from diagnosis.search.problem import Point, Term
 #: Root mean squares of what the model leaves of a channel elsewhere by which a fault must stand out there. Of errors
 #: that are normally distributed one in 370 is larger.
 STANDS_OUT = 3.0
+#: Why a fault of a whole recording is none of a while.
+_WHOLE = (
+    "it lasts for the whole recording, so that no reading outside tells a fault of a while from a lasting one: "
+    "a zero that is off (gauge for absolute, say) is estimated where `bias_bound` of its channel is stated"
+)
+_WHOLE_OF_RIG = (
+    "it lasts for the whole recording, so that no reading outside tells a change for a while from a number that is "
+    "another in this recording: give it under `overrides` there"
+)
 
 
 def is_shown_there_alone(
@@ -91,16 +100,8 @@ def hidden_fault(model: DiagnosisModel, point: Point, term: Term) -> str:
             return ""
         if size / rest > most:
             most, worst = size / rest, readings.channels[number].name
-    if is_whole and change.any() and is_one_of(term.identifier, OF_THE_RIG):
-        return (
-            "it lasts for the whole recording, so that no reading outside tells a change for a while from a number "
-            "that is another in this recording: give it under `overrides` there"
-        )
     if is_whole and change.any():
-        return (
-            "it lasts for the whole recording, so that no reading outside tells a fault of a while from a lasting one: "
-            "a zero that is off (gauge for absolute, say) is estimated where `bias_bound` of its channel is stated"
-        )
+        return _WHOLE_OF_RIG if is_one_of(term.identifier, OF_THE_RIG) else _WHOLE
     where = f" of {worst}" if worst else ""
     return (
         f"it does not stand out: it changes the readings{where} by {most:.1f} times what the model leaves of them "

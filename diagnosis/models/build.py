@@ -129,8 +129,10 @@ def with_switch_times(
     Raises:
         InputError: See `models_of`.
     """
-    moved = model.with_instants() if isinstance(model, ClosedLoopModel) else None
-    if moved is None or not isinstance(model, ClosedLoopModel):
+    if not isinstance(model, ClosedLoopModel):
+        return None
+    moved = model.with_instants()
+    if moved is None:
         return None
     lasting = {t: v for t, v in terms.items() if t.recording is None}
     tried = [lasting] if len(lasting) == len(terms) else [lasting, terms]

@@ -18,7 +18,7 @@ from diagnosis.search.nulls import calibrated
 from diagnosis.search.posterior import costs_of_readings
 from diagnosis.search.problem import Model, Parameter, Point, Term
 from diagnosis.search.score import Score, Scoring
-from diagnosis.search.structure import Structure, structure
+from diagnosis.search.structure import Structure, deviation_of, structure
 
 #: Pairs of elements from which their scatter is estimated, and how many stated deviations it may grow to.
 FEWEST, WIDEST = 6, 2.5
@@ -126,8 +126,7 @@ def spread(parameters: Sequence[Parameter], base: Array) -> Array:
         members = [i for string in strings.values() for i in string]
         apart = [base[a] - base[b] for string in strings.values() for a, b in itertools.combinations(string, 2)]
         if len(apart) >= FEWEST:
-            typical = float(np.median(np.abs(apart))) / (0.6745 * np.sqrt(2.0))  # the median of |z| is 0.6745
-            widths[members] = float(np.clip(typical, 1.0, WIDEST))
+            widths[members] = float(np.clip(deviation_of(np.array(apart)), 1.0, WIDEST))
     return widths
 
 

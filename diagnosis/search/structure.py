@@ -47,6 +47,11 @@ class Structure:
         return abs(self.z) <= self.limit
 
 
+def deviation_of(differences: Array) -> float:
+    """Standard deviation of normal numbers by the median of their differences, which few large ones hardly move."""
+    return float(np.median(np.abs(differences)) / (0.6745 * np.sqrt(2.0)))  # the median of |z| is 0.6745
+
+
 def structure(residuals: Array, layout: Layout, groups: Mapping[str, Array] | None = None) -> Structure:
     """Largest standardised sum of residuals over single channels, groups of channels, and windows.
 

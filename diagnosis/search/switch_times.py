@@ -24,7 +24,7 @@ from diagnosis.search.fit import Fit, fit, fit_best
 from diagnosis.search.free_numbers import Free
 from diagnosis.search.problem import Model, Own, Parameter, Point, Term
 from diagnosis.search.shares import own_label
-from diagnosis.search.structure import structure
+from diagnosis.search.structure import deviation_of, structure
 
 #: Prior standard deviation of an instant, in rows: it lies within the row before, or in the one after where a logger
 #: writes what it sets.
@@ -129,10 +129,7 @@ def _is_noise(found: Fit, model: Model) -> bool:
     for number in range(len(model.layout.names)):
         own = np.flatnonzero((model.layout.channel == number) & (left != 0.0))
         if len(own) > FEWEST:
-            typical = float(np.median(np.abs(np.diff(left[own])))) / (
-                0.6745 * np.sqrt(2.0)
-            )  # the median of |z| is 0.6745
-            left[own] /= max(typical, 1.0)
+            left[own] /= max(deviation_of(np.diff(left[own])), 1.0)
     return structure(left, model.layout).is_noise
 
 

@@ -137,7 +137,7 @@ class ClosedLoopModel(ModelBase):
 
         What hundreds of simulations would take minutes of is not asked.
         """
-        if not isinstance(self.model, SystemModel) or not self.model.can_try_rig_faults:
+        if not isinstance(self.model, SystemModel) or not self.model.can_try_intervals:
             return self
         try:
             changes = {n: changes_of(self.model.scenarios[n]) for n in sorted(numbers)}

@@ -13,6 +13,7 @@ from cosim.assemble import Assembly, assemble
 from cosim.components import FmuComponent, nanoseconds
 from cosim.connection import ConnectionFault, Transfer
 from cosim.fmu.unit import FmuUnit
+from cosim.fmu.units import is_known
 from cosim.fmu.variables import start_value
 from cosim.formula import to_base
 from cosim.programme import Course, ProgrammeUnit
@@ -124,7 +125,7 @@ class FastSystem:
         #: Laws that may be added; those that the scenario has already come last.
         self.laws = [*laws, *(placed for placed, _ in given)]
         self._given = {len(laws) + i: values for i, (_, values) in enumerate(given)}
-        constants = [{n: repr(_to_base(v.number, v.unit)) for n, v in law.constants.items()} for law in self.laws]
+        constants = [{n: repr(in_base(v.number, v.unit)) for n, v in law.constants.items()} for law in self.laws]
         self._compiled = compiled(self.laws, {n: f.symbols for n, f in self.fmus.items()}, constants)
         self._values = [np.zeros(max(len(law.numbers), 1)) for law in self.laws]
         self._bases = [[to_base(unit) for _, unit in law.numbers] for law in self.laws]
@@ -538,6 +539,9 @@ def samples(course: Course, start: int, size: int, steps: int) -> Array:
     return np.ascontiguousarray(values[place].T)
 
 
-def _to_base(value: float, unit: str) -> float:
+def in_base(value: float, unit: str) -> float:
+    """A number in SI base units; as it is where its unit is none that is known."""
+    if not is_known(unit):
+        return value
     factor, offset = to_base(unit)
     return factor * value + offset

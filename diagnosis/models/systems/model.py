@@ -131,7 +131,7 @@ class SystemModel(CompiledModel):
             self.rig |= {t: (len(placed) + n, c) for n, (t, c) in enumerate(zip(terms, every))}
         self._places = [_channel_places(s, r, f) for s, r, f in zip(self.scenarios, recordings, self._fast)]
         self._set_steps()
-        if self.can_try_rig_faults:
+        if self.can_try_intervals:
             self.inputs |= held_inputs(self.scenarios, recordings) | level_inputs(self.scenarios, recordings)
         place = self._batches.place
         given: _Given = (scenario, self.recordings, self.free, list(found), dict(changes))
@@ -145,7 +145,7 @@ class SystemModel(CompiledModel):
         return self._steps_of_all < SEARCHED_AGAIN
 
     @property
-    def can_try_rig_faults(self) -> bool:
+    def can_try_intervals(self) -> bool:
         """Whether hundreds of simulations of a recording take no minutes; see `HELD_STEPS`."""
         return self._substeps * max(fast.steps for fast in self._fast) < HELD_STEPS
 

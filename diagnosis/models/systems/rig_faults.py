@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from cosim.scenario import Scenario
-from diagnosis.faults.law import PARAMETER, RATE, Span, added_rate, fault_term, occasion, parameter_share
+from diagnosis.faults.law import PARAMETER, RATE, added_rate, fault_term, occasion, parameter_share
+from diagnosis.faults.programme import span_of
 from diagnosis.models.systems.changed_run import Changed
 from diagnosis.recording.recording import Recording
 from diagnosis.search.problem import Term
@@ -24,8 +23,7 @@ def rig_terms(
         recordings: All of them; their titles tell them apart.
         number: Of the recording.
     """
-    times = np.unique(np.concatenate([c.times for c in recordings[number].channels.values()]))
-    span = Span(scenario.time.start.to("s"), float(times[-1]), len(times))
+    span = span_of(scenario, recordings[number])
     titles = [r.title for r in recordings]
     found = []
     for change in changes:

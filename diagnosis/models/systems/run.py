@@ -9,15 +9,13 @@ import numpy as np
 import xarray as xr
 
 from cosim.components import FmuComponent, ProgrammeComponent
-from cosim.fmu.units import is_known
-from cosim.formula import to_base
 from cosim.programme import Course
 from cosim.run import run
 from cosim.scenario import Scenario
 from cosim.unit.protocol import Array, Causality
 from cosim.unit.quantity import PhysicalValue
 from diagnosis.models.coil_network.kernel.compiler import CompilerError
-from diagnosis.models.systems.fast import FastSystem
+from diagnosis.models.systems.fast import FastSystem, in_base
 from diagnosis.models.systems.fmu_layout import NotFast
 from diagnosis.models.systems.numbers import scalar_parameters
 from diagnosis.models.systems.placed import Placed
@@ -113,14 +111,6 @@ class SystemRuns:
             return None if rows is None else dataset(self._system, rows.values)
         finally:
             self._system.give(stated)
-
-
-def in_base(value: float, unit: str) -> float:
-    """A number in SI base units; as it is where its unit is none that is known."""
-    if not is_known(unit):
-        return value
-    factor, offset = to_base(unit)
-    return factor * value + offset
 
 
 def resolved(scenario: Scenario, laws: Sequence[Placed] = ()) -> tuple[FastSystem, Array | None]:
